@@ -1,0 +1,58 @@
+// One face for every time integrator.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "suture/ode/ode_system.hpp"
+
+namespace suture {
+
+/// Counts since construction (or summed over restarts).
+struct Statistics {
+  std::int64_t rate_evaluations = 0;
+  std::int64_t steps = 0;
+  std::int64_t newton_iterations = 0;
+  std::int64_t linear_iterations = 0;
+  std::int64_t hessian_builds = 0;
+  std::int64_t preconditioner_setups = 0;
+  std::int64_t error_test_failures = 0;
+  std::int64_t convergence_failures = 0;
+  std::int64_t restarts = 0;
+  Statistics& operator+=(const Statistics& other);
+};
+
+struct IntegratorOptions {
+  Method method = Method::cvode;
+  double position_tolerance = 0.0;     ///< absolute, model units of length
+  double rest_length_tolerance = 0.0;  ///< absolute, model units of length
+  double time_step = 0.0;              ///< fixed-step methods
+  double initial_step = 0.0;           ///< 0: chosen
+  double maximum_step = 0.0;           ///< 0: none
+  int maximum_order = 5;
+};
+
+/// Advances one OdeSystem of fixed size. Throws NumericalError on failure; everything up to time() stays valid.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  /// Takes one internal step, at most to `limit`; returns the new time. state() is y there.
+  virtual double step(double limit) = 0;
+  virtual double time() const = 0;
+  virtual std::span<const double> state() const = 0;
+  virtual double last_step() const = 0;
+  virtual int last_order() const = 0;
+  /// y at t in [time() - last_step(), time()], to the order of the method.
+  virtual void interpolate(double t, std::span<double> y) const = 0;
+  virtual Statistics statistics() const = 0;
+};
+
+/// Creates the integrator `options.method` names, started at (t, y). The system must outlive it.
+std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const IntegratorOptions& options, double t,
+                                            std::span<const double> y);
+
+}  // namespace suture

@@ -1,0 +1,49 @@
+// What an integrator needs to know of a problem. No SUNDIALS here.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace suture {
+
+enum class Evaluation {
+  ok,
+  refused,  ///< recoverable: inverted cell, zero-length segment, non-finite value; the integrator retries a smaller step
+};
+
+class OdeSystem {
+ public:
+  virtual ~OdeSystem() = default;
+  virtual int size() const = 0;
+  /// dy/dt, a pure function of (t, y).
+  virtual Evaluation rate(double t, std::span<const double> y, std::span<double> out) = 0;
+  /// "cell 12, vertex 3, x".
+  virtual std::string component_name(int i) const = 0;
+  /// Components 0 .. position_count()-1 are positions, the rest are rest lengths (own tolerances).
+  virtual int position_count() const = 0;
+  /// Why the last evaluation was refused, in words.
+  virtual std::string refusal() const = 0;
+};
+
+/// A gradient flow with eliminable memory variables, seen by the minimising Newton solver (docs/explanation/numerics.md):
+/// solve  q - psi_q + gamma dU/dq(q, m(q)) = 0  where q are the positions and m the rest lengths, which follow from q
+/// by their own implicit step. All vectors are position vectors of length position_count().
+class GradientFlowSystem : public OdeSystem {
+ public:
+  /// Fixes t, gamma and psi (length size(): positions and rest lengths).
+  virtual void begin_implicit_step(double t, double gamma, std::span<const double> psi) = 0;
+  /// residual = q - psi_q + gamma dU/dq.
+  virtual Evaluation residual(std::span<const double> q, std::span<double> residual) = 0;
+  /// Stores the second derivatives at the point of the last residual evaluation.
+  virtual void linearise() = 0;
+  /// out = (I + gamma H) v at the last linearisation.
+  virtual void product(std::span<const double> v, std::span<double> out) = 0;
+  /// Factors the preconditioner from the last linearisation.
+  virtual void set_up_preconditioner() = 0;
+  /// z = P^-1 r, P symmetric positive definite.
+  virtual void precondition(std::span<const double> r, std::span<double> z) = 0;
+  /// Rest lengths that belong to q, into memory (length size() - position_count()).
+  virtual void recover_memory(std::span<const double> q, std::span<double> memory) = 0;
+};
+
+}  // namespace suture
