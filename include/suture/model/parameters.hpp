@@ -38,7 +38,7 @@ enum class EventHandling {
   grid,       ///< at multiples of event_interval
 };
 
-enum class Method { automatic, cvode, cvode_adams, rkc2, euler, rk4, verlet, erk };
+enum class Method { cvode, rkc2, euler, rk4 };
 
 /// What a run does.
 enum class Protocol {
