@@ -8,14 +8,22 @@ namespace suture {
 
 std::string_view to_string(EventKind kind) {
   switch (kind) {
-    case EventKind::yield: return "yield";
-    case EventKind::force_lost: return "force_lost";
-    case EventKind::force_regained: return "force_regained";
-    case EventKind::capture: return "capture";
-    case EventKind::kink: return "kink";
-    case EventKind::closed: return "closed";
-    case EventKind::exchange: return "exchange";
-    case EventKind::wound_split: return "wound_split";
+    case EventKind::yield:
+      return "yield";
+    case EventKind::force_lost:
+      return "force_lost";
+    case EventKind::force_regained:
+      return "force_regained";
+    case EventKind::capture:
+      return "capture";
+    case EventKind::kink:
+      return "kink";
+    case EventKind::closed:
+      return "closed";
+    case EventKind::exchange:
+      return "exchange";
+    case EventKind::wound_split:
+      return "wound_split";
   }
   return "unknown";
 }

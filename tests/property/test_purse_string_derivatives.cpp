@@ -1,6 +1,5 @@
 // Gradient and Hessian of chain and tethers, against Taylor's theorem; invariances; action and reaction.
 #include <catch2/catch.hpp>
-
 #include <functional>
 #include <memory>
 #include <numeric>
@@ -129,7 +128,8 @@ std::vector<Case> all_cases() {
     const PurseStringParameters parameters = ring_parameters(law);
     TissueState state = stretched_state(parameters);
     auto term = std::make_unique<PurseStringChain>(state.tissue, state.purse_string, parameters);
-    cases.push_back({law == SpringLaw::relative ? "chain, relative" : "chain, quadratic", std::move(state), std::move(term)});
+    cases.push_back(
+        {law == SpringLaw::relative ? "chain, relative" : "chain, quadratic", std::move(state), std::move(term)});
   }
   for (const TetherLaw law : all_tether_laws) {
     PurseStringParameters parameters = ring_parameters();
@@ -190,8 +190,10 @@ TEST_CASE("chain and tethers exert no net force and no net torque", "[property]"
     REQUIRE(largest > 0.1);
     CHECK(std::abs(fx) < 1e-13);
     CHECK(std::abs(fy) < 1e-13);
-    if (c.central) CHECK(std::abs(torque) < 1e-12);
-    else CHECK(std::abs(torque) > 1e-3);
+    if (c.central)
+      CHECK(std::abs(torque) < 1e-12);
+    else
+      CHECK(std::abs(torque) > 1e-3);
   }
 }
 

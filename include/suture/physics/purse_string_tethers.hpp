@@ -4,7 +4,8 @@
 //
 //     saturating_force    f = k_p min(l, h)                U = k_p l^2/2 (l < h),  k_p h (l - h/2) beyond
 //     saturating_energy   f = k_p l  while attached        U = k_p l^2/2    the same formula beyond h: the mode, not
-//                         f = 0      once slipped          U = k_p h^2/2    the length, decides, and only events flip it
+//                         f = 0      once slipped          U = k_p h^2/2    the length, decides, and only events flip
+//                         it
 //     ramp                f = k_p l (l < h),               U = k_p l^2/2 (l < h),
 //                         k_p (l_y - l) to l_y, then 0     k_p (h^2 - (l_y - l)^2/2) to l_y, then k_p h^2
 //     published           f_x = k_p min(d_x, h), f_y alike U = phi(d_x) + phi(d_y), phi as in saturating_force

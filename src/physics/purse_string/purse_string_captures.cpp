@@ -113,8 +113,10 @@ std::vector<Capture> published_captures(const TissueState& state, const std::vec
   std::vector<Capture> result;
   for (const Placement& p : placements(string, boundary)) {
     const auto [first, second] = two_nearest(state, p.vertex);
-    if ((first + 1) % string.size() == second) result.push_back({p.vertex, first});
-    else if ((second + 1) % string.size() == first) result.push_back({p.vertex, second});
+    if ((first + 1) % string.size() == second)
+      result.push_back({p.vertex, first});
+    else if ((second + 1) % string.size() == first)
+      result.push_back({p.vertex, second});
   }
   return result;
 }

@@ -125,7 +125,10 @@ TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indice
   const Ring old = take_ring(state);
   const int count = old.string.size();
   std::vector<char> yields(count, 0);
-  for (const int j : ring_indices) yields[j] = 1;
+  for (const int j : ring_indices) {
+    SUTURE_EXPECTS(0 <= j && j < count);
+    yields[j] = 1;
+  }
   std::vector<int> kept;
   for (int j = 0; j < count; ++j)
     if (!yields[j]) kept.push_back(j);
@@ -154,10 +157,12 @@ TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indice
 
 TissueState capture_vertices(TissueState state, const std::vector<Capture>& captures, CaptureLaw law) {
   if (captures.empty()) return state;
+  SUTURE_EXPECTS(!state.purse_string.empty());
   Ring ring = take_ring(state);
   const StateView cells = state.view();
   std::vector<Capture> ordered = captures;
-  std::stable_sort(ordered.begin(), ordered.end(), [](const Capture& a, const Capture& b) { return a.after < b.after; });
+  std::stable_sort(ordered.begin(), ordered.end(),
+                   [](const Capture& a, const Capture& b) { return a.after < b.after; });
   // `inserted` vertices lie before the present spring, whose index has moved by as many.
   int inserted = 0;
   for (auto begin = ordered.begin(); begin != ordered.end();) {

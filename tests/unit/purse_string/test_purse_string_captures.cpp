@@ -97,13 +97,14 @@ TEST_CASE("beside a crevice the new vertex joins the side it lies on", "[unit]")
 }
 
 TEST_CASE("a misordered boundary never places a vertex past the next exposed ring vertex", "[unit]") {
-  const std::vector<std::pair<double, double>> points{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}, {-0.5, 0.5}, {0.1, 0.9}};
+  const std::vector<std::pair<double, double>> points{{0.0, 0.0}, {1.0, 0.0},  {1.0, 1.0},
+                                                      {0.0, 1.0}, {-0.5, 0.5}, {0.1, 0.9}};
   const TissueState state = points_with_string(points, {0, 1, 2, 3, 4});
   CHECK(captures(state, {0, 5, 3, 1, 2, 4}) == Captures{{5, 0}});
 }
 
 TEST_CASE("the published insertion looks for the two nearest ring vertices", "[unit]") {
-  const std::vector<std::pair<double, double>> points{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0},  {0.0, 1.0},
+  const std::vector<std::pair<double, double>> points{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0},
                                                       {0.5, 0.1}, {0.1, 0.4}, {0.45, 0.5}};
   const TissueState state = points_with_string(points, {0, 1, 2, 3});
   CHECK(published_captures(state, {0, 4, 1, 2, 3}) == Captures{{4, 0}});

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <set>
 
 #include "suture/ode/purse_string_events.hpp"
@@ -50,8 +49,9 @@ TEST_CASE("events are due where their conditions hold", "[unit]") {
   stretch_tether(state, 5, 1.1 * l_y, 4.3);
   stretch_tether(state, 6, 1.1 * l_y, 5.3);
   for (const int j : {2, 4, 6}) state.purse_string.mode[j] = TetherMode::slipped;
-  CHECK(due_events(state.purse_string, state.view(), thresholds_of(TetherLaw::saturating_energy)) ==
-        Events{{EventKind::force_lost, 1}, {EventKind::force_regained, 4}, {EventKind::yield, 5}, {EventKind::yield, 6}});
+  CHECK(
+      due_events(state.purse_string, state.view(), thresholds_of(TetherLaw::saturating_energy)) ==
+      Events{{EventKind::force_lost, 1}, {EventKind::force_regained, 4}, {EventKind::yield, 5}, {EventKind::yield, 6}});
   for (const TetherLaw law : {TetherLaw::saturating_force, TetherLaw::published, TetherLaw::ramp})
     CHECK(due_events(state.purse_string, state.view(), thresholds_of(law)) ==
           Events{{EventKind::yield, 5}, {EventKind::yield, 6}});
@@ -66,7 +66,8 @@ TEST_CASE("an event is due exactly when its function is not negative, and is wat
       const TetherThresholds thresholds = thresholds_of(law);
       state.purse_string.mode[j] = mode;
       for (const double fraction : {0.0, 0.3, 0.499, 0.501, 0.9, 0.999, 1.001}) {
-        const bool already_slipped = law == TetherLaw::saturating_energy && mode == TetherMode::attached && fraction > 1.0;
+        const bool already_slipped =
+            law == TetherLaw::saturating_energy && mode == TetherMode::attached && fraction > 1.0;
         if (already_slipped) continue;  // passes l_y/2 first
         stretch_tether(state, j, fraction * l_y, 0.9);
         Events crossed;

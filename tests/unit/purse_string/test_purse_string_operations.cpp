@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 
 #include "suture/errors.hpp"
 #include "suture/physics/purse_string_chain.hpp"
@@ -87,7 +86,8 @@ TEST_CASE("a new string replaces the old one", "[unit]") {
   const TissueState before = used_string();
   const TissueState after = create_purse_string(before, {1, 9, 17, 25}, ring_parameters(), contact_distance);
   CHECK(after.purse_string.vertex == std::vector<int>{1, 9, 17, 25});
-  for (int v = 0; v < before.tissue.vertex_count(); ++v) CHECK(after.view().rest_length[v] == before.view().rest_length[v]);
+  for (int v = 0; v < before.tissue.vertex_count(); ++v)
+    CHECK(after.view().rest_length[v] == before.view().rest_length[v]);
 }
 
 TEST_CASE("no purse string on an impossible boundary", "[unit]") {
@@ -127,8 +127,10 @@ TEST_CASE("closing over a gap makes no tension if the string lies on its cell ve
   TissueState before = with_string(parameters);
   before.time += 0.5;
   const TissueState after = yield_tethers(before, {4});
-  const auto tension_before = PurseStringChain(before.tissue, before.purse_string, parameters).tensions(before.time, before.view());
-  const auto tension_after = PurseStringChain(after.tissue, after.purse_string, parameters).tensions(after.time, after.view());
+  const auto tension_before =
+      PurseStringChain(before.tissue, before.purse_string, parameters).tensions(before.time, before.view());
+  const auto tension_after =
+      PurseStringChain(after.tissue, after.purse_string, parameters).tensions(after.time, after.view());
   REQUIRE(tension_before[3] > 0.01);
   CHECK(std::abs(tension_after[3]) < 1e-13);
   CHECK(tension_after[2] == tension_before[2]);
@@ -158,7 +160,8 @@ TEST_CASE("yields in a batch are the same as neighbours closed once", "[unit]") 
 }
 
 TEST_CASE("a ring of fewer than three vertices is removed", "[unit]") {
-  const TissueState before = create_purse_string(cells_around_a_hole(), {1, 9, 17, 25}, ring_parameters(), contact_distance);
+  const TissueState before =
+      create_purse_string(cells_around_a_hole(), {1, 9, 17, 25}, ring_parameters(), contact_distance);
   CHECK(yield_tethers(before, {2}).purse_string.size() == 3);
   const TissueState gone = yield_tethers(before, {2, 0});
   CHECK(gone.purse_string.empty());
@@ -183,8 +186,10 @@ TEST_CASE("a capture puts a vertex at its cell vertex, between its neighbours", 
       CHECK(point_distance(after, V + after_index + 1, vertex) == 0.0);
       int unchanged = 0;
       for (int k = 0; k < ring.size(); ++k)
-        if (k < old.size() && k <= after_index) unchanged += same(ring.spring[k], old.spring[k]);
-        else if (k > after_index + 1) unchanged += same(ring.spring[k], old.spring[k - 1]);
+        if (k < old.size() && k <= after_index)
+          unchanged += same(ring.spring[k], old.spring[k]);
+        else if (k > after_index + 1)
+          unchanged += same(ring.spring[k], old.spring[k - 1]);
       CHECK(unchanged == old.size() - 1);
     }
 }

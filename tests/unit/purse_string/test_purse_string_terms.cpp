@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <limits>
 
 #include "suture/errors.hpp"
@@ -21,7 +20,8 @@ TetherResponse response(TetherLaw law, double l, TetherMode mode = TetherMode::a
 }  // namespace
 
 TEST_CASE("tether forces are those of the printed laws", "[unit]") {
-  for (const TetherLaw law : {TetherLaw::saturating_force, TetherLaw::saturating_energy, TetherLaw::published, TetherLaw::ramp})
+  for (const TetherLaw law :
+       {TetherLaw::saturating_force, TetherLaw::saturating_energy, TetherLaw::published, TetherLaw::ramp})
     CHECK(response(law, 0.4 * h).force == Approx(k_p * 0.4 * h));
   CHECK(response(TetherLaw::saturating_force, 1.7 * h).force == Approx(k_p * h));
   CHECK(response(TetherLaw::saturating_energy, 1.7 * h, TetherMode::slipped).force == 0.0);
@@ -44,7 +44,8 @@ TEST_CASE("tether energies are continuous where the law is, and at a slip", "[un
   const double e = 1e-9;
   for (const TetherLaw law : {TetherLaw::saturating_force, TetherLaw::published, TetherLaw::ramp})
     for (const double l : {h, l_y}) {
-      CHECK(response(law, l + e).energy - response(law, l - e).energy == Approx(2 * e * response(law, l).force).margin(1e-15));
+      CHECK(response(law, l + e).energy - response(law, l - e).energy ==
+            Approx(2 * e * response(law, l).force).margin(1e-15));
       CHECK(response(law, l + e).force == Approx(response(law, l - e).force).margin(20 * e));
     }
   CHECK(response(TetherLaw::saturating_energy, h).energy ==
