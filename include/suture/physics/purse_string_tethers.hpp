@@ -58,6 +58,8 @@ class PurseStringTethers final : public EnergyTerm {
   TetherResponse response(int j, double l) const;
   /// Force (fx, fy) pulling the cell vertex along the stretch.
   std::array<double, 2> pull(int j, const Stretch& d) const;
+  /// Second derivative of the tether's energy with respect to the stretch.
+  Block curvature(int j, const Stretch& d) const;
 
   std::vector<int> vertex_;
   std::vector<TetherMode> mode_;

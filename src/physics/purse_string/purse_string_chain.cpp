@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "physics/pair_hessian.hpp"
 #include "suture/errors.hpp"
 
 namespace suture {
@@ -64,16 +65,11 @@ void PurseStringChain::add_gradient(double t, const StateView& state, MutableSta
 void PurseStringChain::add_hessian(double t, const StateView& state, HessianSink& sink) const {
   for (int j = 0; j < purse_string_.size(); ++j) {
     const Spring s = spring(j, t, state);
-    // Across the spring T/l, along it dT/dl; without a direction (l = 0) the latter in both.
-    Block block{s.stiffness, 0.0, 0.0, s.stiffness};
-    if (s.length > 0.0) {
-      const double across = s.stiffness * (1.0 - s.rest_length / s.length);
-      const double nx = s.dx / s.length, ny = s.dy / s.length, excess = s.stiffness - across;
-      block = {across + excess * nx * nx, excess * nx * ny, excess * nx * ny, across + excess * ny * ny};
-    }
-    sink.add_block(s.from, s.from, block);
-    sink.add_block(s.to, s.to, block);
-    sink.add_block(s.from, s.to, {-block[0], -block[1], -block[2], -block[3]});
+    const double tension = s.stiffness * (s.length - s.rest_length);
+    const Block block = s.length > 0.0
+                            ? radial_block({s.dx / s.length, s.dy / s.length}, s.length, tension, s.stiffness)
+                            : Block{s.stiffness, 0.0, 0.0, s.stiffness};
+    add_pair(sink, s.from, s.to, block);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "physics/pair_hessian.hpp"
 #include "suture/errors.hpp"
 
 namespace suture {
@@ -78,24 +79,18 @@ void PurseStringTethers::add_gradient(double, const StateView& state, MutableSta
   }
 }
 
+Block PurseStringTethers::curvature(int j, const Stretch& d) const {
+  if (law_ == TetherLaw::published) return {response(j, d.dx).slope, 0.0, 0.0, response(j, d.dy).slope};
+  const double l = std::sqrt(d.dx * d.dx + d.dy * d.dy);
+  const TetherResponse r = response(j, l);
+  if (l == 0.0) return {r.slope, 0.0, 0.0, r.slope};
+  return radial_block({d.dx / l, d.dy / l}, l, r.force, r.slope);
+}
+
 void PurseStringTethers::add_hessian(double, const StateView& state, HessianSink& sink) const {
   for (int j = 0; j < static_cast<int>(vertex_.size()); ++j) {
     const Stretch d = stretch(j, state);
-    Block block;
-    if (law_ == TetherLaw::published) {
-      block = {response(j, d.dx).slope, 0.0, 0.0, response(j, d.dy).slope};
-    } else {
-      const double l = std::sqrt(d.dx * d.dx + d.dy * d.dy);
-      const TetherResponse r = response(j, l);
-      block = {r.slope, 0.0, 0.0, r.slope};
-      if (l > 0.0) {
-        const double across = r.force / l, excess = r.slope - across, nx = d.dx / l, ny = d.dy / l;
-        block = {across + excess * nx * nx, excess * nx * ny, excess * nx * ny, across + excess * ny * ny};
-      }
-    }
-    sink.add_block(d.cell_point, d.cell_point, block);
-    sink.add_block(d.ring_point, d.ring_point, block);
-    sink.add_block(d.cell_point, d.ring_point, {-block[0], -block[1], -block[2], -block[3]});
+    add_pair(sink, d.cell_point, d.ring_point, curvature(j, d));
   }
 }
 
