@@ -17,7 +17,7 @@ void add_outline(std::mt19937_64& engine, int count, double radius, double rough
   const double phase2 = uniform(engine, 0.0, 6.0), phase3 = uniform(engine, 0.0, 6.0), start = uniform(engine, 0.0, 6.0);
   for (int k = 0; k < count; ++k) {
     const double angle = start + 2.0 * std::numbers::pi * (k + uniform(engine, -0.15, 0.15)) / count;
-    const double waves = std::sin(2 * angle + phase2) + std::sin(3 * angle + phase3) + uniform(engine, -0.5, 0.5);
+    const double waves = std::sin(2 * angle + phase2) + std::sin(3 * angle + phase3) + uniform(engine, -1.0, 1.0);
     const double r = radius * (1.0 + roughness * waves);
     x.push_back(center_x + r * std::cos(angle));
     y.push_back(center_y + r * std::sin(angle));
