@@ -22,7 +22,9 @@ void add_forces_command(CLI::App& program, CommandResult&) {
   CLI::App* command = program.add_subcommand("forces", "evaluate every term on a configuration");
   command->add_option("STATE.csv", options->state, "columns cell,vertex,x,y,l0, in model units")->required();
   add_set_option(*command, options->overrides);
-  command->add_option("--out", options->out, "forces; the energies go to OUT_energy.csv")->type_name("OUT.csv")->required();
+  command->add_option("--out", options->out, "forces; the energies go to OUT_energy.csv")
+      ->type_name("OUT.csv")
+      ->required();
   command->callback([options] {
     const Config config = parse_config("", "command line", options->overrides);
     const TissueState state = make_state(read_state_csv(options->state), config);

@@ -8,9 +8,9 @@
 #include <memory>
 #include <numeric>
 
-#include "suture/physics/term_sum.hpp"
 #include "support/convergence_order.hpp"
 #include "support/random_tissue.hpp"
+#include "suture/physics/term_sum.hpp"
 
 namespace suture::test {
 
@@ -46,7 +46,8 @@ Values product_at(const EnergyTerm& term, const TissueState& state, const Values
 }
 
 double largest(const Values& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0, [](double m, double v) { return std::max(m, std::abs(v)); });
+  return std::accumulate(values.begin(), values.end(), 0.0,
+                         [](double m, double v) { return std::max(m, std::abs(v)); });
 }
 
 /// Order of a sequence of remainders; those at the level of rounding carry none and count as exact.
@@ -88,7 +89,8 @@ void check_matrix(const EnergyTerm& term, const TissueState& state, const Values
   const Eigen::VectorXd assembled = hessian * Eigen::Map<const Eigen::VectorXd>(v.data(), hessian.cols());
   const Values product = product_at(term, state, v);
   const Eigen::SparseMatrix<double> transposed = hessian.transpose();
-  const double scale = std::max(hessian.coeffs().size() ? hessian.coeffs().abs().maxCoeff() : 0.0, std::numeric_limits<double>::min());
+  const double scale =
+      std::max(hessian.coeffs().size() ? hessian.coeffs().abs().maxCoeff() : 0.0, std::numeric_limits<double>::min());
   const Eigen::SparseMatrix<double> skew = hessian - transposed;
   if (skew.coeffs().size()) report.asymmetry = std::max(report.asymmetry, skew.coeffs().abs().maxCoeff() / scale);
   for (int i = 0; i < assembled.size(); ++i)
@@ -102,11 +104,14 @@ bool DerivativeReport::passed() const {
 }
 
 std::string DerivativeReport::text() const {
-  return fmt::format("{} directions; order of energy remainder {:.2f}, of gradient remainder {:.2f}; asymmetry {:.1e}, product {:.1e}; {}",
-                     checked, gradient_order, hessian_order, asymmetry, product_error, worst);
+  return fmt::format(
+      "{} directions; order of energy remainder {:.2f}, of gradient remainder {:.2f}; asymmetry {:.1e}, product "
+      "{:.1e}; {}",
+      checked, gradient_order, hessian_order, asymmetry, product_error, worst);
 }
 
-DerivativeReport check_derivatives(const EnergyTerm& term, const TissueState& state, std::uint64_t seed, int directions) {
+DerivativeReport check_derivatives(const EnergyTerm& term, const TissueState& state, std::uint64_t seed,
+                                   int directions) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   DerivativeReport report;
   const double energy_scale = std::abs(energy_at(term, state, state.values)) + 1.0;

@@ -8,8 +8,8 @@ namespace suture::test {
 
 namespace {
 
-/// Renumbers cells, vertices and segments: cell i is old cell cells[i]; within it, vertex k is old vertex vertex_of(k, n)
-/// and the segment that starts there is old segment segment_of(k, n).
+/// Renumbers cells, vertices and segments: cell i is old cell cells[i]; within it, vertex k is old vertex vertex_of(k,
+/// n) and the segment that starts there is old segment segment_of(k, n).
 Transformed renumbered(std::string name, const TissueState& state, const std::vector<int>& cells,
                        const std::function<int(int, int)>& vertex_of, const std::function<int(int, int)>& segment_of) {
   const Tissue& tissue = state.tissue;
@@ -35,7 +35,8 @@ Transformed renumbered(std::string name, const TissueState& state, const std::ve
   for (int v = 0; v < tissue.vertex_count(); ++v) new_number[from[v]] = v;
   for (int& vertex : result.state.purse_string.vertex) vertex = new_number[vertex];
   for (int j = 0; j < state.purse_string.size(); ++j) result.point_from.push_back(state.layout().ring_point(j));
-  if (!state.reference_rest_length.empty()) result.state.reference_rest_length = taken(state.reference_rest_length, segment_from);
+  if (!state.reference_rest_length.empty())
+    result.state.reference_rest_length = taken(state.reference_rest_length, segment_from);
   const StateView old = state.view();
   result.state.values = taken(old.x, result.point_from);
   for (const auto& part : {taken(old.y, result.point_from), taken(old.rest_length, segment_from)})
@@ -77,8 +78,9 @@ Transformed rotated(const TissueState& state, double angle) {
 
 Transformed reflected(const TissueState& state) {
   // Reversed vertex k is old vertex -k; the segment from it leads to old vertex -k - 1, where that old segment starts.
-  return mapped(renumbered("reflected", state, in_order(state.tissue.cell_count()), [](int k, int n) { return (n - k) % n; },
-                           [](int k, int n) { return n - k - 1; }),
+  return mapped(renumbered(
+                    "reflected", state, in_order(state.tissue.cell_count()), [](int k, int n) { return (n - k) % n; },
+                    [](int k, int n) { return n - k - 1; }),
                 {-1, 0}, {0, 1});
 }
 

@@ -14,7 +14,7 @@ namespace suture::test {
 struct Transformed {
   std::string name;
   TissueState state;
-  std::vector<int> point_from;        ///< point i of `state` is point point_from[i] of the original
+  std::vector<int> point_from;               ///< point i of `state` is point point_from[i] of the original
   Point image_of_x{1, 0}, image_of_y{0, 1};  ///< where unit vectors go: the gradient turns with them
 
   Point turn(Point v) const { return v.x * image_of_x + v.y * image_of_y; }

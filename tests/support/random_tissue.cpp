@@ -14,7 +14,8 @@ namespace {
 /// A star-shaped outline with waves, around (center_x, center_y).
 void add_outline(std::mt19937_64& engine, int count, double radius, double roughness, double center_x, double center_y,
                  std::vector<double>& x, std::vector<double>& y) {
-  const double phase2 = uniform(engine, 0.0, 6.0), phase3 = uniform(engine, 0.0, 6.0), start = uniform(engine, 0.0, 6.0);
+  const double phase2 = uniform(engine, 0.0, 6.0), phase3 = uniform(engine, 0.0, 6.0),
+               start = uniform(engine, 0.0, 6.0);
   for (int k = 0; k < count; ++k) {
     const double angle = start + 2.0 * std::numbers::pi * (k + uniform(engine, -0.15, 0.15)) / count;
     const double waves = std::sin(2 * angle + phase2) + std::sin(3 * angle + phase3) + uniform(engine, -1.0, 1.0);
@@ -47,7 +48,8 @@ TissueState random_tissue(std::uint64_t seed, const RandomTissueOptions& options
                         static_cast<int>(uniform(engine, 0.0, options.maximum_vertices - options.minimum_vertices + 1));
       const double rest_length = regular_rest_length(count, 1.0, 1.2);
       const double pitch = options.spacing * (2.0 * radius + rest_length);
-      add_outline(engine, count, radius, options.roughness, pitch * (column + 0.5 * (row % 2)) + uniform(engine, -0.05, 0.05),
+      add_outline(engine, count, radius, options.roughness,
+                  pitch * (column + 0.5 * (row % 2)) + uniform(engine, -0.05, 0.05),
                   0.5 * std::numbers::sqrt3 * pitch * row + uniform(engine, -0.05, 0.05), x, y);
       counts.push_back(count);
       materials.push_back(random_material(engine));
@@ -58,7 +60,8 @@ TissueState random_tissue(std::uint64_t seed, const RandomTissueOptions& options
   state.values.insert(state.values.end(), y.begin(), y.end());
   for (int v = 0; v < state.tissue.vertex_count(); ++v) {
     const int next = state.tissue.next(v);
-    state.values.push_back(std::hypot(x[next] - x[v], y[next] - y[v]) * (1.0 + uniform(engine, -options.strain, options.strain)));
+    state.values.push_back(std::hypot(x[next] - x[v], y[next] - y[v]) *
+                           (1.0 + uniform(engine, -options.strain, options.strain)));
   }
   return state;
 }

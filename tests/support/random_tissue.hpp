@@ -14,9 +14,9 @@ double uniform(std::mt19937_64& engine, double low, double high);
 struct RandomTissueOptions {
   int rows = 2, columns = 3;  ///< cells on a jittered triangular lattice
   int minimum_vertices = 9, maximum_vertices = 14;
-  double spacing = 0.82;      ///< of the lattice, in units of a cell's diameter plus one membrane; < 1 overlaps
-  double roughness = 0.2;     ///< relative amplitude of the outline's waves: concave corners
-  double strain = 0.15;       ///< current l0 differ from l by up to this fraction
+  double spacing = 0.82;   ///< of the lattice, in units of a cell's diameter plus one membrane; < 1 overlaps
+  double roughness = 0.2;  ///< relative amplitude of the outline's waves: concave corners
+  double strain = 0.15;    ///< current l0 differ from l by up to this fraction
 };
 
 /// Counter-clockwise cells without self-crossings, no purse string, materials that differ from cell to cell.

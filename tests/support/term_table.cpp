@@ -18,7 +18,8 @@ TissueState packed(std::uint64_t seed) { return random_tissue(seed); }
 
 /// Cells so rough and finely divided that vertices of one cell come close to each other.
 TissueState crumpled(std::uint64_t seed) {
-  return random_tissue(seed, {.rows = 1, .columns = 2, .minimum_vertices = 24, .maximum_vertices = 30, .roughness = 0.25});
+  return random_tissue(seed,
+                       {.rows = 1, .columns = 2, .minimum_vertices = 24, .maximum_vertices = 30, .roughness = 0.25});
 }
 
 template <class Term>

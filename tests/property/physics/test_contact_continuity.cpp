@@ -1,7 +1,6 @@
 // The smooth membrane: energy and force are continuous along any path past convex and concave corners.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -49,7 +48,9 @@ double energy(Point p, const std::function<int(int)>& weight) {
         const int next = (k + 1) % 5;
         sum += law.value(point_segment_distance(p, {block_x[k], block_y[k]}, {block_x[next], block_y[next]}));
       },
-      [&](int k, int c) { sum += weight(c) * law.value(norm(p - Point{block_x[k], block_y[k]})); });
+      [&](int k, int c) {
+        sum += weight(c) * law.value(norm(p - Point{block_x[k], block_y[k]}));
+      });
   return sum;
 }
 
@@ -88,7 +89,8 @@ TEST_CASE("the uncorrected sums jump where the corrected one does not", "[proper
   CHECK(largest_change(8000, gap) > 1e-3);
 }
 
-TEST_CASE("contact energy and every force are continuous while one cell slides past the corners of another", "[property]") {
+TEST_CASE("contact energy and every force are continuous while one cell slides past the corners of another",
+          "[property]") {
   const ContactParameters parameters{.energy = 0.5, .distance = 0.4, .adhesion = 0.1, .range = 0.3};
   const auto energies = [&](double s) {
     const TissueState state = block_and_triangle(above(s));

@@ -48,9 +48,12 @@ class BrokenArea final : public EnergyTerm {
 
 TEST_CASE("the derivative check rejects wrong derivatives and accepts right ones", "[property]") {
   const TissueState state = random_tissue(5);
-  const auto report = [&](BrokenArea::Mistake mistake) { return check_derivatives(BrokenArea(state.tissue, mistake), state, 9); };
+  const auto report = [&](BrokenArea::Mistake mistake) {
+    return check_derivatives(BrokenArea(state.tissue, mistake), state, 9);
+  };
   CHECK(report(BrokenArea::Mistake::none).passed());
-  const DerivativeReport gradient = report(BrokenArea::Mistake::gradient), hessian = report(BrokenArea::Mistake::hessian);
+  const DerivativeReport gradient = report(BrokenArea::Mistake::gradient),
+                         hessian = report(BrokenArea::Mistake::hessian);
   INFO(gradient.text() << "\n" << hessian.text());
   CHECK(gradient.gradient_order < 1.2);
   CHECK(hessian.gradient_order > 1.8);

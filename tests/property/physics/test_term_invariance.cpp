@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "support/invariance.hpp"
@@ -118,7 +117,8 @@ TEST_CASE("a change of the unit of length changes energies not at all and forces
       INFO(terms[k]->name());
       const double energy = terms[k]->energy(0.0, state.view());
       CHECK(std::abs(large_terms[k]->energy(0.0, large.view()) - energy) < 1e-12 * (1.0 + std::abs(energy)));
-      const std::vector<Point> gradient = point_gradient(*terms[k], state), other = point_gradient(*large_terms[k], large);
+      const std::vector<Point> gradient = point_gradient(*terms[k], state),
+                               other = point_gradient(*large_terms[k], large);
       for (std::size_t i = 0; i < gradient.size(); ++i)
         REQUIRE(norm(7.0 * other[i] - gradient[i]) < 1e-12 * (1.0 + largest_norm(gradient)));
     }

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -34,7 +33,8 @@ TEST_CASE("a clockwise polygon has negative area and the same centroid and shape
 TEST_CASE("the shape parameter of a regular polygon is n tan(pi/n)/pi", "[unit]") {
   for (const int n : {3, 4, 30}) {
     std::vector<double> x, y;
-    for (int k = 0; k < n; ++k) x.push_back(3 + std::cos(2 * std::numbers::pi * k / n)), y.push_back(std::sin(2 * std::numbers::pi * k / n));
+    for (int k = 0; k < n; ++k)
+      x.push_back(3 + std::cos(2 * std::numbers::pi * k / n)), y.push_back(std::sin(2 * std::numbers::pi * k / n));
     CHECK(shape_parameter(x, y) == Approx(n * std::tan(std::numbers::pi / n) / std::numbers::pi));
   }
 }

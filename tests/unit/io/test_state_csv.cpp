@@ -1,6 +1,6 @@
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -18,7 +18,10 @@ class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& content = {}) {
     static int number = 0;
-    path_ = (std::filesystem::temp_directory_path() / fmt::format("suture_state_csv_{}_{}", reinterpret_cast<std::uintptr_t>(&number), number++)).string() + ".csv";
+    path_ = (std::filesystem::temp_directory_path() /
+             fmt::format("suture_state_csv_{}_{}", reinterpret_cast<std::uintptr_t>(&number), number++))
+                .string() +
+            ".csv";
     std::ofstream(path_) << content;
   }
   ~TemporaryFile() { std::filesystem::remove(path_); }
@@ -39,7 +42,8 @@ void refuses(const std::string& content, int line, const std::string& words) {
   const TemporaryFile file(content);
   INFO(content);
   CHECK_THROWS_AS(read_state_csv(file.path()), InputError);
-  CHECK_THROWS_WITH(read_state_csv(file.path()), Catch::StartsWith(fmt::format("{}:{}: ", file.path(), line)) && Catch::Contains(words));
+  CHECK_THROWS_WITH(read_state_csv(file.path()),
+                    Catch::StartsWith(fmt::format("{}:{}: ", file.path(), line)) && Catch::Contains(words));
 }
 
 }  // namespace
@@ -67,7 +71,8 @@ TEST_CASE("mistakes in a state file are refused with file and line", "[unit]") {
   refuses(triangle + "1,0,inf,5,1\n", 5, "column x: 'inf' is not finite");
   refuses(triangle + "1,0,5,5,0\n", 5, "column l0: the rest length 0 is not positive");
   refuses(triangle + "1,0,5,5,-1\n", 5, "column l0: the rest length -1 is not positive");
-  refuses(triangle + "0,4,5,5,1\n", 5, "found cell 0, vertex 4 where cell 0, vertex 3 or cell 1, vertex 0 was expected");
+  refuses(triangle + "0,4,5,5,1\n", 5,
+          "found cell 0, vertex 4 where cell 0, vertex 3 or cell 1, vertex 0 was expected");
   refuses(triangle + "2,0,5,5,1\n", 5, "found cell 2, vertex 0");
   refuses("cell,vertex,x,y,l0\n1,0,0,0,1\n", 2, "found cell 1, vertex 0 where cell 0, vertex 0 was expected");
   refuses(triangle + "1,0,5,5,1\n1,1,6,5,1\n", 6, "cell 1 has 2 vertices");
@@ -115,7 +120,8 @@ TEST_CASE("the energies of a configuration belong to its forces", "[unit]") {
   const double step = 1e-6;
   TissueState forward = state, backward = state;
   forward.values[5] += step, backward.values[5] -= step;
-  const auto here = evaluate_forces(state, Config{}), ahead = evaluate_forces(forward, Config{}), behind = evaluate_forces(backward, Config{});
+  const auto here = evaluate_forces(state, Config{}), ahead = evaluate_forces(forward, Config{}),
+             behind = evaluate_forces(backward, Config{});
   for (std::size_t k = 0; k < here.size(); ++k)
     CHECK(-(ahead[k].energy - behind[k].energy) / (2 * step) == Approx(here[k].fx[5]).epsilon(1e-5).margin(1e-7));
 }

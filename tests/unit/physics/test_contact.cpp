@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <vector>
 
@@ -44,7 +43,7 @@ TEST_CASE("a vertex above a segment pushes it down with lever arms and no fricti
   const ContactLaw& law = contact.law();
   CHECK(contact.energy(0.0, state.view()) == Approx(law.value(0.5)));
   const std::vector<Point> gradient = point_gradient(contact, state);
-  CHECK(gradient[4].y == Approx(law.first_derivative(0.5)));        // the vertex
+  CHECK(gradient[4].y == Approx(law.first_derivative(0.5)));          // the vertex
   CHECK(gradient[2].y == Approx(-0.25 * law.first_derivative(0.5)));  // the far end of the segment
   CHECK(gradient[3].y == Approx(-0.75 * law.first_derivative(0.5)));  // the near end
   for (const Point& g : gradient) CHECK(g.x == 0.0);
@@ -116,7 +115,8 @@ TEST_CASE("the contact sum equals the clamped form without case distinction", "[
   for (int p = 0; p < tissue.vertex_count(); ++p)
     for (int q = 0; q < tissue.vertex_count(); ++q) {
       if (tissue.cell_of(p) == tissue.cell_of(q)) continue;
-      sum += contact.law().value(point_segment_distance(at(p), at(q), at(tissue.next(q)))) - contact.law().value(norm(at(p) - at(q)));
+      sum += contact.law().value(point_segment_distance(at(p), at(q), at(tissue.next(q)))) -
+             contact.law().value(norm(at(p) - at(q)));
     }
   CHECK(contact.energy(0.0, view) == Approx(sum).epsilon(1e-12));
 }
@@ -136,12 +136,14 @@ TEST_CASE("contacts without a direction are failures that name cell and vertex",
 
 TEST_CASE("self-contact repels vertices that are not neighbours", "[unit]") {
   const TissueState state = cells({square});
-  const SelfContact near(state.tissue, {.energy = 0.5, .distance = 2.0}), far(state.tissue, {.energy = 0.5, .distance = 1.4});
+  const SelfContact near(state.tissue, {.energy = 0.5, .distance = 2.0}),
+      far(state.tissue, {.energy = 0.5, .distance = 1.4});
   const double inside = 1.0 - std::sqrt(2.0) / 2.0;
   CHECK(near.energy(0.0, state.view()) == Approx(2 * 0.5 * inside * inside));  // the two diagonals, not the four sides
   CHECK(far.energy(0.0, state.view()) == 0.0);
   const TissueState touching = cells({{{0, 0}, {2, 0}, {1, 1}, {1, 1}, {0, 1}}});
-  CHECK(SelfContact(touching.tissue, {.distance = 0.1}).energy(0.0, touching.view()) == 0.0);  // neighbours along the membrane
+  CHECK(SelfContact(touching.tissue, {.distance = 0.1}).energy(0.0, touching.view()) ==
+        0.0);  // neighbours along the membrane
   const TissueState folded = cells({{{0, 0}, {2, 0}, {1, 1}, {2, 2}, {1, 1}}});
   CHECK_THROWS_WITH(SelfContact(folded.tissue, {.distance = 0.1}).energy(0.0, folded.view()),
                     Catch::Contains("cell 0, vertex 2 lies exactly on cell 0, vertex 4"));

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 
@@ -26,7 +25,8 @@ TEST_CASE("the exact relaxation at fixed length satisfies the flow", "[unit]") {
   const double tau = 3.0, memory = 0.4, length = 0.9, reference = 1.1, step = 1e-5;
   for (const double t : {0.0, 1.0, 7.0}) {
     const auto l0 = [&](double time) { return exact(1.5, length, reference, tau, memory, time); };
-    CHECK((l0(t + step) - l0(t - step)) / (2 * step) == Approx(rest_length_rate(l0(t), length, reference, tau, memory)));
+    CHECK((l0(t + step) - l0(t - step)) / (2 * step) ==
+          Approx(rest_length_rate(l0(t), length, reference, tau, memory)));
   }
 }
 
@@ -72,6 +72,7 @@ TEST_CASE("every segment flows with tau and memory of its cell", "[unit]") {
   }
   std::vector<double> by_default(state.layout().size(), 0.0), by_initial(state.layout().size(), 0.0);
   add_rest_length_rate(state.tissue, {}, state.view(), MutableStateView(state.layout(), by_default));
-  add_rest_length_rate(state.tissue, state.tissue.initial_rest_lengths(), state.view(), MutableStateView(state.layout(), by_initial));
+  add_rest_length_rate(state.tissue, state.tissue.initial_rest_lengths(), state.view(),
+                       MutableStateView(state.layout(), by_initial));
   CHECK(by_default == by_initial);
 }

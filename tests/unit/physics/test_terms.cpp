@@ -1,6 +1,5 @@
 // Hand-computed values of the simple terms and what they refuse.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -67,7 +66,8 @@ TEST_CASE("degenerate segments are failures that name cell and vertex", "[unit]"
   const BendingElasticity bending(state.tissue);
   for (const EnergyTerm* term : {static_cast<const EnergyTerm*>(&membrane), static_cast<const EnergyTerm*>(&bending)}) {
     CHECK_THROWS_AS(term->energy(0.0, state.view()), NumericalError);
-    CHECK_THROWS_WITH(point_gradient(*term, state), Catch::Contains("cell 0, vertex 1: the segment to the next vertex has length zero"));
+    CHECK_THROWS_WITH(point_gradient(*term, state),
+                      Catch::Contains("cell 0, vertex 1: the segment to the next vertex has length zero"));
     std::vector<double> v(4, 1.0), outx(4), outy(4);
     CHECK_THROWS_AS(add_hessian_product(*term, 0.0, state.view(), v, v, outx, outy), NumericalError);
   }
