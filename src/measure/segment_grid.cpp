@@ -21,9 +21,10 @@ void SegmentGrid::measure_segments(const Tissue& tissue, const StateView& state)
       const int w = v + 1 == tissue.end_vertex(cell) ? tissue.first_vertex(cell) : v + 1;
       const double ex = state.x[w] - state.x[v], ey = state.y[w] - state.y[v];
       const double length = std::sqrt(ex * ex + ey * ey);
-      if (!std::isfinite(length))
-        throw NumericalError(fmt::format("{} is at ({}, {})", tissue.vertex_name(v), state.x[v], state.y[v]));
-      const double inverse = length > 0.0 ? 1.0 / length : 0.0;
+      if (!(length > 0.0) || !std::isfinite(length))
+        throw NumericalError(fmt::format("{} is at ({}, {}) and its segment has length {}", tissue.vertex_name(v),
+                                         state.x[v], state.y[v], length));
+      const double inverse = 1.0 / length;
       segments_[v] = {state.x[v], state.y[v], ex * inverse, ey * inverse, length, cell};
       arc_[v] = arc;
       arc += length;

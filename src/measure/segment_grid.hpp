@@ -27,7 +27,7 @@ struct MembraneSegment {
 
 class SegmentGrid {
  public:
-  /// Keeps its memory between calls. Throws NumericalError when a coordinate is not finite.
+  /// Keeps its memory between calls. Throws NumericalError for a coordinate that is not finite or a segment without length.
   void build(const Tissue& tissue, const StateView& state, double bucket_size);
 
   const MembraneSegment& operator[](int segment) const { return segments_[segment]; }

@@ -39,7 +39,7 @@ class ExposureMeasure {
   ExposureMeasure(ExposureMeasure&&) noexcept;
   ExposureMeasure& operator=(ExposureMeasure&&) noexcept;
 
-  /// Valid until the next call. Throws NumericalError when a coordinate is not finite.
+  /// Valid until the next call. Throws NumericalError for a coordinate that is not finite or a segment without length.
   const Exposure& operator()(const Tissue& tissue, const StateView& state);
 
  private:
