@@ -23,7 +23,7 @@ void BoundaryPieces::evaluate(const Tissue& tissue, const SegmentGrid& grid, con
     add_line(v);
     begin_.push_back(static_cast<int>(pieces_.size()));
   }
-  largest_gap_ = 0.0;
+  squared_gap_ = 0.0;
   link_along_membrane();
   link_cuts();
   link_leftovers();
@@ -72,22 +72,29 @@ void BoundaryPieces::add_arc(int v) {
   const MembraneSegment &in = grid[before], &out = grid[v];
   const double sine = cross(in, out);
   if (sine < 0.0 || (sine == 0.0 && dot(in, out) > 0.0)) return;
-  const double x = out.ax, y = out.ay;
+  const double x = out.ax, y = out.ay, cosine = dot(in, out);
   const Point first{x + rho_ * in.uy, y - rho_ * in.ux}, last{x + rho_ * out.uy, y - rho_ * out.ux};
   const double limit = rho_ * rho_;
   // One thickened segment covers one interval of the circle, so with both ends it covers the arc between them.
   const auto covers = [&](int j) {
     return grid[j].squared_distance(first.x, first.y) <= limit && grid[j].squared_distance(last.x, last.y) <= limit;
   };
-  if (exposure_->blocker[v] >= 0 && covers(exposure_->blocker[v])) return;
+  const int blocker = exposure_->blocker[v];
+  if (blocker >= 0)
+    for (const int hint : {blocker, tissue_->previous(blocker), tissue_->next(blocker)})
+      if (hint != v && hint != before && covers(hint)) return;
+  // All of the arc is within `radius` of its middle, so segments farther than rho + radius from that do not matter.
+  const Point middle = probe_centre(*tissue_, grid, v, rho_);
+  const double radius = std::sqrt(squared(first.x - middle.x) + squared(first.y - middle.y));
+  const double squared_reach = squared(rho_ + radius);
   candidates_.clear();
-  const bool covered = grid.visit_near({x, x, y, y}, 2.0 * rho_, [&](int j) {
-    if (j == v || j == before || grid[j].squared_distance(x, y) >= 4.0 * limit) return false;
+  const bool covered = grid.visit_near({middle.x, middle.x, middle.y, middle.y}, rho_ + radius, [&](int j) {
+    if (j == v || j == before || grid[j].squared_distance(middle.x, middle.y) >= squared_reach) return false;
     candidates_.push_back(j);
     return covers(j);
   });
   if (covered) return;
-  uncovered_.reset(std::atan2(sine, dot(in, out)));
+  uncovered_.reset(std::atan2(sine, cosine));
   for (const int j : candidates_) {
     const Covered c = covered_arc(grid[j], x, y, in.uy, -in.ux, rho_);
     for (const double turn : {-2.0 * std::numbers::pi, 0.0, 2.0 * std::numbers::pi})
@@ -126,8 +133,11 @@ bool BoundaryPieces::cover_line(int v, int j) {
 void BoundaryPieces::add_line(int v) {
   const MembraneSegment& s = (*grid_)[v];
   uncovered_.reset(s.length);
-  for (const int hint : {exposure_->blocker[v], exposure_->blocker[tissue_->next(v)]})
-    if (hint >= 0 && cover_line(v, hint)) return;
+  for (const int blocker : {exposure_->blocker[v], exposure_->blocker[tissue_->next(v)]}) {
+    if (blocker < 0) continue;
+    for (const int hint : {blocker, tissue_->previous(blocker), tissue_->next(blocker)})
+      if (cover_line(v, hint)) return;
+  }
   remove_adjacent(v);
   if (uncovered_.empty()) return;
   const double x = s.ax + rho_ * s.uy, y = s.ay - rho_ * s.ux;
@@ -140,7 +150,7 @@ void BoundaryPieces::join(int end, int start) {
   pieces_[end].next = start;
   pieces_[start].previous = end;
   const Point a = pieces_[end].end, b = pieces_[start].start;
-  largest_gap_ = std::max(largest_gap_, std::hypot(b.x - a.x, b.y - a.y));
+  squared_gap_ = std::max(squared_gap_, squared(b.x - a.x) + squared(b.y - a.y));
 }
 
 void BoundaryPieces::try_start(int end, int candidate, double& least, int& best) const {

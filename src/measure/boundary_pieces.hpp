@@ -26,7 +26,7 @@ class BoundaryPieces {
   void evaluate(const Tissue& tissue, const SegmentGrid& grid, const Exposure& exposure, double rho);
 
   std::span<const Piece> pieces() const { return pieces_; }
-  double largest_gap() const { return largest_gap_; }
+  double largest_gap() const { return std::sqrt(squared_gap_); }
   /// Point at `offset` outside the membrane, on the normal through the piece's point at this parameter.
   Point point(const Piece& piece, double parameter, double offset) const;
   /// Nearest point of a piece: squared distance and parameter.
@@ -53,7 +53,7 @@ class BoundaryPieces {
   const Tissue* tissue_ = nullptr;
   const SegmentGrid* grid_ = nullptr;
   const Exposure* exposure_ = nullptr;
-  double rho_ = 0.0, largest_gap_ = 0.0;
+  double rho_ = 0.0, squared_gap_ = 0.0;
   Uncovered uncovered_;
   std::vector<Piece> pieces_;
   std::vector<int> begin_, candidates_, open_ends_, open_starts_;

@@ -79,6 +79,12 @@ void FreeBoundary::Impl::trace(const Tissue& tissue, const StateView& state) {
 }
 
 int FreeBoundary::Impl::nearest_piece(const Tissue& tissue, int vertex, double& parameter) const {
+  // The probe of a vertex sits in the middle of its arc.
+  for (const Piece& piece : boundary.of_vertex(vertex))
+    if (piece.arc && piece.low_cut < 0 && piece.high_cut < 0) {
+      parameter = 0.5 * piece.high;
+      return boundary.index(piece);
+    }
   const Point p = probe_centre(tissue, grid, vertex, membrane.probe_radius());
   double least = membrane.probe_radius() * membrane.probe_radius();
   int best = -1;
