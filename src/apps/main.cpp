@@ -81,6 +81,8 @@ ExitCode run_program(std::vector<std::string> arguments) {
     program.parse(std::move(arguments));
   } catch (const CLI::Success& request) {  // --help, --version
     program.exit(request);
+  } catch (const CLI::RuntimeError& verdict) {  // a command that has said itself what is wrong
+    return static_cast<ExitCode>(verdict.get_exit_code());
   } catch (const CLI::ParseError& error) {
     throw InputError(fmt::format("command line: {} (see suture --help)", error.what()));
   }
