@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "suture/model/parameters.hpp"
 #include "suture/ode/ode_system.hpp"
 
 namespace suture {
