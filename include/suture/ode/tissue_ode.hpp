@@ -33,8 +33,6 @@ class TissueOde final : public GradientFlowSystem {
 
   /// dU/dr of everything, into gradient.x and gradient.y (overwritten). Used by FIRE and velocity Verlet too.
   Evaluation gradient(double t, const StateView& state, MutableStateView gradient);
-  /// U of everything at (t, state); not a hot path.
-  double energy(double t, const StateView& state);
 
   // OdeSystem
   int size() const override;
