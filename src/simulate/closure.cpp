@@ -48,7 +48,8 @@ class Closure {
 
 TissueState with_string(const Config& config, TissueState state, const Wound& wound, double contact_distance) {
   if (!config.purse_string.enabled) return state;
-  return create_purse_string(std::move(state), wound.boundary, config.purse_string, contact_distance);
+  const std::vector<int> boundary = string_boundary(state.tissue, wound.boundary, config.purse_string.crevice_depth);
+  return create_purse_string(std::move(state), boundary, config.purse_string, contact_distance);
 }
 
 Closure::Closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good)

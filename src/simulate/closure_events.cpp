@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace suture {
 
@@ -10,6 +11,27 @@ namespace {
 constexpr double storm_rate = 10.0;  // located events per unit of time beyond which locating costs more than it saves
 
 }  // namespace
+
+std::vector<int> string_boundary(const Tissue& tissue, const std::vector<int>& exposed, int crevice_depth) {
+  std::vector<char> taken(tissue.vertex_count(), 0);
+  for (const int v : exposed) taken[v] = 1;
+  std::vector<int> boundary;
+  const auto take = [&](int v) {
+    if (std::exchange(taken[v], 1) == 0) boundary.push_back(v);
+  };
+  for (std::size_t k = 0; k < exposed.size(); ++k) {
+    const int v = exposed[k], before = exposed[(k + exposed.size() - 1) % exposed.size()], after = exposed[(k + 1) % exposed.size()];
+    if (before != tissue.next(v)) {  // a run begins: cells are passed in the direction of decreasing vertex number
+      std::vector<int> lead{v};
+      for (int d = 0; d < crevice_depth; ++d) lead.push_back(tissue.next(lead.back()));
+      for (int d = crevice_depth; d >= 1; --d) take(lead[d]);
+    }
+    boundary.push_back(v);
+    if (after != tissue.previous(v))
+      for (int d = 0, w = v; d < crevice_depth; ++d) take(w = tissue.previous(w));
+  }
+  return boundary;
+}
 
 void StormGauge::count(double t, int events) {
   if (t - window_start_ >= 1.0) {
@@ -132,8 +154,9 @@ bool ClosureEvents::capture(TissueState& state, WoundTracker& tracker, std::vect
   seen_exposed_ = exposure_(state.tissue, state.view()).exposed;
   const std::optional<Wound>& wound = tracker.update(state.tissue, state.view());
   if (!wound) return false;
+  const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
   const bool published = parameters_.capture_law == CaptureLaw::slip;
-  const std::vector<Capture> captured = published ? published_captures(state, wound->boundary) : captures(state, wound->boundary);
+  const std::vector<Capture> captured = published ? published_captures(state, boundary) : captures(state, boundary);
   if (captured.empty()) return false;
   state = capture_vertices(std::move(state), captured, parameters_.capture_law);
   for (const Capture& c : captured) log.push_back(event_record(state, EventKind::capture, c.vertex));

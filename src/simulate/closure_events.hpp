@@ -11,6 +11,10 @@
 
 namespace suture {
 
+/// The vertices the string runs along: the exposed ones (counter-clockwise about the wound) and, at both ends of every
+/// cell's run, `crevice_depth` more towards where the cell touches its neighbour.
+std::vector<int> string_boundary(const Tissue& tissue, const std::vector<int>& exposed, int crevice_depth);
+
 /// Decides when tether events are worth locating: while fewer than `storm_rate` per unit of time happen.
 class StormGauge {
  public:
