@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "suture/model/parameters.hpp"
 #include "suture/ode/ode_system.hpp"
 
 namespace suture {
@@ -33,6 +34,7 @@ struct IntegratorOptions {
   double time_step = 0.0;              ///< fixed-step methods
   double initial_step = 0.0;           ///< 0: chosen
   double maximum_step = 0.0;           ///< 0: none
+  double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
   int maximum_order = 5;
 };
 
