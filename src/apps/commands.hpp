@@ -22,6 +22,7 @@ struct CommandResult {
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 void add_config_command(CLI::App& program, CommandResult& result);
+void add_forces_command(CLI::App& program, CommandResult& result);
 void add_validate_command(CLI::App& program, CommandResult& result);
 
 }  // namespace suture

@@ -24,6 +24,7 @@ namespace {
 using AddCommand = void (*)(CLI::App&, CommandResult&);
 constexpr AddCommand commands[] = {
     add_config_command,
+    add_forces_command,
     add_validate_command,
 };
 
