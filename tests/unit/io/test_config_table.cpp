@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <regex>
 #include <set>
 
 #include "suture/io/config_key.hpp"
@@ -59,6 +62,33 @@ TEST_CASE("every key has a name of its own, a section and a documentation", "[un
   }
   for (const auto& key : cell_type_keys()) CHECK(key.doc.size() > 5);
   CHECK(paths.size() > 70);
+}
+
+TEST_CASE("every field of the parameter structs has a row", "[unit]") {
+  std::set<std::string> known;
+  for (const auto& key : config_keys()) known.insert(key.path());
+  std::ifstream header{SUTURE_SOURCE_DIR "/include/suture/model/parameters.hpp"};
+  REQUIRE(header);
+  const std::regex structure{R"(^struct (\w+)Parameters \{)"};
+  const std::regex field{R"(^  [\w:<>]+ (\w+?)(_um2|_nN|_um_per_s)?( = [^;]*)?;)"};
+  const std::map<std::string, std::string> irregular{{"PurseString", "purse_string"}, {"Unit", "units"}};
+  std::string section;
+  int checked = 0;
+  for (std::string line; std::getline(header, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, structure)) {
+      section = match[1];
+      const auto found = irregular.find(section);
+      section = found != irregular.end() ? found->second : std::string(1, std::tolower(section[0])) + section.substr(1);
+    } else if (line == "};") {
+      section.clear();
+    } else if (!section.empty() && std::regex_search(line, match, field)) {
+      INFO(line);
+      CHECK(known.contains(section + "." + match[1].str()));
+      ++checked;
+    }
+  }
+  CHECK(checked == static_cast<int>(known.size()) - 1);  // all but preset
 }
 
 TEST_CASE("keys that other tools use exist", "[unit]") {
