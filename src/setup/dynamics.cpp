@@ -62,25 +62,30 @@ std::vector<double> maxwell_velocities(const TissueState& state, double temperat
   return velocities;
 }
 
-EnergyReport move_at_constant_energy(TissueOde& ode, TissueState& state, std::vector<double>& velocities,
-                                     double duration, double time_step) {
+EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
+                                     std::vector<double>& velocities, double duration, double time_step) {
   SUTURE_EXPECTS(velocities.size() == static_cast<std::size_t>(state.layout().positions()));
   const auto steps = static_cast<long>(std::ceil(duration / time_step - 1e-9));
   const double step = steps > 0 ? duration / static_cast<double>(steps) : 0.0;
   std::vector<double> gradient(state.values.size());
   const auto evaluate = [&] {
     if (ode.gradient(state.time, state.view(), {state.layout(), gradient}) != Evaluation::ok)
-      throw NumericalError(fmt::format("constant-energy motion at time {:.6g}, step {:.3g}: {}", state.time, step, ode.refusal()));
+      throw NumericalError(fmt::format("constant-energy motion at time {:.6g}, step {:.3g}: {}", state.time, step,
+                                       ode.refusal()));
   };
   const auto kick = [&](double time) {
     for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] -= time * gradient[i];
   };
-  const auto energy = [&] { return ode.energy(state.time, state.view()) + kinetic_energy(velocities); };
+  const auto energy = [&] {
+    double sum = kinetic_energy(velocities);
+    for (const auto& term : energies) sum += term->energy(state.time, state.view());
+    return sum;
+  };
 
   EnergyReport report;
   report.initial = report.final = energy();
   const double start = state.time;
-  const long sampling = std::max(1L, steps / 50);
+  const long sampling = std::max(1L, steps / 10);
   evaluate();
   for (long n = 1; n <= steps; ++n) {
     kick(0.5 * step);

@@ -124,6 +124,11 @@ Packing make_packing(const Config& config, const Progress& progress) {
     packing.report.iterations += minimised.iterations;
     packing.report.largest_force = minimised.largest_force;
     packing.report.fraction = covered_area(state, half_membrane) / (pi * packing.wall_radius * packing.wall_radius);
+    report_progress(progress, "packing",
+                    (packing.report.fraction - options.initial_fraction) /
+                        (options.final_fraction - options.initial_fraction),
+                    fmt::format("packing fraction {:.4f}, {} iterations, largest force {:.1e}", packing.report.fraction,
+                                minimised.iterations, minimised.largest_force));
     if (packing.report.fraction >= options.final_fraction-1e-4 ) break;
     const double target = std::min(packing.report.fraction + options.increment, options.final_fraction);
     const double factor = std::sqrt(packing.report.fraction / target);

@@ -6,6 +6,7 @@
 #include "suture/integrate/integrator.hpp"
 #include "suture/model/state.hpp"
 #include "suture/ode/tissue_ode.hpp"
+#include "suture/physics/term_sum.hpp"
 
 namespace suture {
 
@@ -17,16 +18,17 @@ std::vector<double> maxwell_velocities(const TissueState& state, double temperat
 struct EnergyReport {
   double initial = 0.0;  ///< kinetic plus potential
   double final = 0.0;
-  double largest_deviation = 0.0;  ///< from `initial`, over all steps at which it was sampled
+  double largest_deviation = 0.0;  ///< from `initial`, over the samples
 };
 
 /// Constant-energy motion of unit masses by velocity Verlet (Swope, Andersen, Berens & Wilson 1982), second order in the
-/// step; `duration` is covered in whole steps of at most `time_step`. Updates positions, velocities and time.
+/// step; `duration` is covered in equal steps of at most `time_step`. Updates positions, velocities and time.
+/// energies: the terms `ode` is the gradient of; their sum is sampled about ten times on the way.
 /// Throws NumericalError when the forces cannot be computed.
-EnergyReport move_at_constant_energy(TissueOde& ode, TissueState& state, std::vector<double>& velocities,
-                                     double duration, double time_step);
+EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
+                                     std::vector<double>& velocities, double duration, double time_step);
 
-/// Overdamped motion of elastic cells for `duration`, by the configured integrator. `adhesion` is l1.
+/// Overdamped motion of elastic cells for `duration`, by the configured integrator.
 Statistics relax_overdamped(const Config& config, TissueState& state, double duration);
 
 }  // namespace suture
