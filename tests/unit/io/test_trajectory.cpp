@@ -7,6 +7,7 @@
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
 #include "suture/io/trajectory_check.hpp"
+#include "suture/version.hpp"
 #include "support/sample_tissue.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -58,7 +59,7 @@ Provenance sample_provenance() {
           .threads = 2,
           .position_tolerance = 1e-3,
           .rest_length_tolerance = 1e-4,
-          .scales = {.length_um = 5.0, .time_min = 16.6667 / 60.0}};
+          .units = {.rest_area_um2 = 16.1, .unsticking_force_nN = 1.0 / 3.0, .constriction_rate_um_per_s = 0.31}};
 }
 
 const Quantity wound_area{"wound_area", "area", "area of the wound"};
@@ -119,7 +120,7 @@ TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
   CHECK(extras.cell_fields[0].quantity.name == "shape_parameter");
   CHECK(extras.cell_fields[0].quantity.description == "p^2/(4 pi a)");
   REQUIRE(extras.wound_outline.size() == 3);
-  CHECK(extras.wound_outline[2].y() == 1.0 / 3.0);
+  CHECK(extras.wound_outline[2].y == 1.0 / 3.0);
 
   const Series* const series = trajectory.observable("wound_area");
   REQUIRE(series != nullptr);
@@ -146,8 +147,9 @@ TEST_CASE("a trajectory carries its provenance", "[unit]") {
   CHECK(found.threads == 2);
   CHECK(found.position_tolerance == 1e-3);
   CHECK(found.rest_length_tolerance == 1e-4);
-  CHECK(found.scales.length_um == 5.0);
-  CHECK(found.scales.time_min == expected.scales.time_min);
+  CHECK(found.units.rest_area_um2 == expected.units.rest_area_um2);
+  CHECK(found.units.unsticking_force_nN == expected.units.unsticking_force_nN);
+  CHECK(found.units.constriction_rate_um_per_s == expected.units.constriction_rate_um_per_s);
   CHECK(trajectory.code_version == build_information().version);
   CHECK(!trajectory.code_commit.empty());
 }

@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr OutputScales scales{.length_um = 5.0, .time_min = 0.25};
+const UnitScales scales{UnitParameters{}};
 
 int big_endian(const std::string& bytes, std::size_t at) {
   int value = 0;
