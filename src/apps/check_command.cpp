@@ -5,26 +5,15 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "suture/errors.hpp"
 #include "suture/io/trajectory_check.hpp"
 
 namespace suture {
 
 namespace {
 
-ExitCode exit_code(FileVerdict verdict) {
-  switch (verdict) {
-    case FileVerdict::valid: return ExitCode::done;
-    case FileVerdict::unreadable: return ExitCode::bad_input;
-    case FileVerdict::invalid: return ExitCode::failed;
-  }
-  return ExitCode::failed;
-}
-
 std::string text_of(const std::string& file, const FileReport& report) {
-  const char* const verdict = report.verdict == FileVerdict::valid        ? "valid"
-                              : report.verdict == FileVerdict::unreadable ? "not a readable suture file"
-                                                                          : "INVALID";
-  std::string text = fmt::format("{}: {}\n", file, verdict);
+  std::string text = fmt::format("{}: {}\n", file, report.verdict == FileVerdict::valid ? "valid" : "INVALID");
   if (!report.content.empty()) text += fmt::format("  {}\n", report.content);
   for (const std::string& problem : report.problems) text += fmt::format("  problem: {}\n", problem);
   return text;
@@ -38,8 +27,10 @@ void add_check_command(CLI::App& program, CommandResult& result) {
   command->add_option("FILE", *file, "file to verify")->required();
   command->callback([file, &result] {
     const FileReport report = check_file(*file);
+    if (report.verdict == FileVerdict::unreadable)
+      throw InputError(fmt::format("{}: not a readable suture file: {}", *file, report.problems.front()));
     std::cout << text_of(*file, report);
-    result.exit_code = exit_code(report.verdict);
+    if (report.verdict == FileVerdict::invalid) result.exit_code = ExitCode::failed;
   });
 }
 

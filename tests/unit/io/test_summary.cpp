@@ -7,7 +7,8 @@
 #include "suture/errors.hpp"
 #include "suture/io/summary.hpp"
 #include "suture/io/trajectory_check.hpp"
-#include "support/scratch_folder.hpp"
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -60,8 +61,8 @@ TEST_CASE("summary.json holds model and physical units, null for never", "[unit]
 }
 
 TEST_CASE("summary.json is replaced whole and can be checked", "[unit]") {
-  const ScratchFolder folder;
-  const auto path = folder / "summary.json";
+  const TemporaryDirectory folder;
+  const auto path = folder.path() / "summary.json";
   write_bytes(path, "old");
   CHECK(check_file(path).verdict == FileVerdict::unreadable);
   write_summary(sample_summary(), path);
@@ -75,5 +76,5 @@ TEST_CASE("summary.json is replaced whole and can be checked", "[unit]") {
   CHECK(report.verdict == FileVerdict::invalid);
   REQUIRE(report.problems.size() == 1);
   CHECK(report.problems[0] == "key 't_05' is missing");
-  CHECK_THROWS_AS(write_summary(sample_summary(), folder / "missing" / "summary.json"), FileError);
+  CHECK_THROWS_AS(write_summary(sample_summary(), folder.path() / "missing" / "summary.json"), FileError);
 }

@@ -6,7 +6,8 @@
 
 #include "suture/io/trajectory_check.hpp"
 #include "suture/io/wound_csv.hpp"
-#include "support/scratch_folder.hpp"
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -58,8 +59,8 @@ TEST_CASE("wound.csv has a header, full precision and empty fields for what is u
 }
 
 TEST_CASE("wound.csv can be checked", "[unit]") {
-  const ScratchFolder folder;
-  const auto path = folder / "wound.csv";
+  const TemporaryDirectory folder;
+  const auto path = folder.path() / "wound.csv";
   write_wound_csv(samples, scales, path);
   CHECK(check_file(path).verdict == FileVerdict::valid);
   CHECK(check_file(path).content == "wound table: 3 samples");
