@@ -1,16 +1,16 @@
 // Properties that every row of the configuration table must have; a new key is tested by being in the table.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <map>
 #include <regex>
 #include <set>
 
-#include "suture/io/config_key.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
+#include "suture/io/config_key.hpp"
 
 using namespace suture;
 
@@ -117,9 +117,8 @@ TEST_CASE("every key refuses wrong types and values outside its range", "[unit]"
   int checked = 0;
   for (const auto& key : config_keys())
     for (const std::string& value : refused_values(key, key.slot(defaults))) {
-      const std::string text = key.section.empty()
-                                   ? std::string{key.name} + " = " + value
-                                   : fmt::format("[{}]\n{} = {}", key.section, key.name, value);
+      const std::string text = key.section.empty() ? std::string{key.name} + " = " + value
+                                                   : fmt::format("[{}]\n{} = {}", key.section, key.name, value);
       INFO(text);
       CHECK_THROWS_AS(parse_config(text, "test.toml"), InputError);
       ++checked;
@@ -135,10 +134,10 @@ TEST_CASE("every word of every key is accepted and written back in its first spe
       const std::string override_text = key.path() + "=" + std::string{choice.name};
       INFO(override_text);
       // These words need company: a chain law that divides by lambda_min, protocols of one cell.
-      const Config config = parse_config("", "test.toml",
-                                         {"purse_string.minimum_rest_length=0.01", "tissue.cells=1",
-                                          "run.last_stage=packing", override_text,
-                                          key.path() == "run.last_stage" ? "tissue.cells=50" : "tissue.vertices=30"});
+      const Config config =
+          parse_config("", "test.toml",
+                       {"purse_string.minimum_rest_length=0.01", "tissue.cells=1", "run.last_stage=packing",
+                        override_text, key.path() == "run.last_stage" ? "tissue.cells=50" : "tissue.vertices=30"});
       Config copy = config;
       const Slot slot = key.slot(copy);
       REQUIRE(std::holds_alternative<ChoiceSlot>(slot));
