@@ -75,8 +75,7 @@ std::vector<ConfigKey<Config>> purse_string_keys() {
                                              "what a captured vertex does to the chain spring it splits"),
       key<&C::purse_string, &P::event_handling>(section, "event_handling", pure_number, anything,
                                                 "when breaking and capture of tethers are processed"),
-      key<&C::purse_string, &P::event_interval>(section, "event_interval", time, positive,
-                                                "spacing of the event grid"),
+      key<&C::purse_string, &P::event_interval>(section, "event_interval", time, positive, "spacing of the event grid"),
   };
 }
 

@@ -3,7 +3,7 @@
 
 #include "support/program.hpp"
 #include "support/reference_tissue.hpp"
-#include "support/scratch_folder.hpp"
+#include "support/file_bytes.hpp"
 #include "suture/io/state_csv.hpp"
 
 using namespace suture;
