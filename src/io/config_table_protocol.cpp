@@ -21,15 +21,19 @@ void add_packing_keys(std::vector<ConfigKey<Config>>& rows) {
   add(key<&C::packing, &P::area_stiffness>(section, "area_stiffness", modulus, non_negative, "k_a while compressing"));
   add(key<&C::packing, &P::bending_stiffness>(section, "bending_stiffness", energy, non_negative,
                                               "k_b while compressing"));
-  add(key<&C::packing, &P::shape_noise>(section, "shape_noise", pure_number, {0.0, 0.5, true, false},
-                                        "random relative displacement of the corners of the first polygons"));
   add(key<&C::packing, &P::wall_energy>(section, "wall_energy", energy, positive, "energy scale of the circular wall"));
   add(key<&C::packing, &P::wall_range>(section, "wall_range", in_contact_distances, positive,
                                        "range sigma of the wall"));
+  add(key<&C::packing, &P::shape_noise>(section, "shape_noise", pure_number, between(0, 0.2),
+                                        "random radial displacement of the first polygons' corners"));
+  add(key<&C::packing, &P::step_tolerance>(section, "step_tolerance", force, positive,
+                                           "largest force component left before the next compression step"));
   add(key<&C::packing, &P::force_tolerance>(section, "force_tolerance", force, positive,
-                                            "largest force component left after each relaxation"));
-  add(key<&C::packing, &P::maximum_iterations>(section, "maximum_iterations", pure_number, between(1, largest_integer),
-                                               "FIRE iterations allowed per compression step"));
+                                            "largest force component of the finished packing"));
+  add(key<&C::packing, &P::maximum_iterations>(section, "maximum_iterations", pure_number,
+                                               between(1, largest_integer), "FIRE iterations allowed per minimisation"));
+  add(key<&C::packing, &P::attempts>(section, "attempts", pure_number, between(1, 1000),
+                                     "packings tried, each from its own random numbers, until one is accepted"));
 }
 
 void add_wound_keys(std::vector<ConfigKey<Config>>& rows) {

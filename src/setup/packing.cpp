@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 #include "setup/energy_options.hpp"
 #include "suture/errors.hpp"
+#include "suture/measure/patch.hpp"
 #include "suture/physics/confinement.hpp"
 #include "suture/setup/placement.hpp"
 
@@ -16,15 +19,11 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-double covered_area(double area, double perimeter, double half_membrane) {
-  return area + perimeter * half_membrane + pi * half_membrane * half_membrane;
-}
-
-/// Area a cell covers at rest.
+/// Area a cell covers at rest, its half membrane included.
 double rest_covered_area(const Tissue& tissue, int cell, double half_membrane) {
   double perimeter = 0.0;
   for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) perimeter += tissue.initial_rest_length(v);
-  return covered_area(tissue.material(cell).rest_area, perimeter, half_membrane);
+  return tissue.material(cell).rest_area + perimeter * half_membrane + pi * half_membrane * half_membrane;
 }
 
 Tissue packing_tissue(const Tissue& tissue, const PackingParameters& packing) {
@@ -40,14 +39,14 @@ Tissue packing_tissue(const Tissue& tissue, const PackingParameters& packing) {
 
 /// Polygons at random places inside the wall, too small to cross each other.
 std::vector<double> random_polygons(const Config& config, const Tissue& tissue, double half_membrane,
-                                    double wall_radius) {
+                                    double wall_radius, int attempt) {
   std::vector<double> disc_radii, corner_radii;
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
     const double corners = tissue.vertex_count(cell);
     disc_radii.push_back(std::sqrt(rest_covered_area(tissue, cell, half_membrane) / pi));
     corner_radii.push_back(std::sqrt(2.0 * tissue.material(cell).rest_area / (corners * std::sin(2.0 * pi / corners))));
   }
-  RandomStream centres(config.tissue.seed, RandomPurpose::centres);
+  RandomStream centres(config.tissue.seed, RandomPurpose::centres, attempt);
   const DiscPlacement placement = spread_discs(disc_radii, wall_radius, centres);
   // Membranes may be pressed together by half a membrane at most: beyond that they could cross.
   const double shrink = std::max(0.0, placement.deepest_overlap - half_membrane);
@@ -57,7 +56,7 @@ std::vector<double> random_polygons(const Config& config, const Tissue& tissue, 
       throw InputError(fmt::format("packing.initial_fraction: {} leaves no room to place {} cells at random",
                                    config.packing.initial_fraction, tissue.cell_count()));
   }
-  RandomStream shapes(config.tissue.seed, RandomPurpose::shapes);
+  RandomStream shapes(config.tissue.seed, RandomPurpose::shapes, attempt);
   return regular_polygons(tissue, placement, corner_radii, config.packing.shape_noise, shapes);
 }
 
@@ -74,70 +73,103 @@ void draw_in(TissueState& state, double factor) {
 }
 
 void check(const PackingParameters& packing) {
-  if (!(packing.initial_fraction > 0.0 && packing.initial_fraction < packing.final_fraction))
+  if (!(packing.initial_fraction > 0.0 && packing.initial_fraction <= packing.final_fraction))
     throw InputError(fmt::format("packing.initial_fraction: {} is not between 0 and packing.final_fraction = {}",
                                  packing.initial_fraction, packing.final_fraction));
   if (!(packing.increment > 0.0))
     throw InputError(fmt::format("packing.increment: {} is not positive", packing.increment));
 }
 
+/// A packing on its way: the wall is drawn in and the cells follow.
+class Compression {
+ public:
+  Compression(const Config& config, const Tissue& tissue, int attempt, const Progress& progress)
+      : options_(config.packing),
+        membrane_{.contact_distance = contact_distance(config), .range = config.contact.range},
+        ode_options_(elastic_options(config, config.packing.adhesion)),
+        progress_(progress),
+        fire_(2 * static_cast<std::size_t>(tissue.vertex_count())) {
+    TissueState& state = packing_.state;
+    state.tissue = packing_tissue(tissue, options_);
+    double covered = 0.0;
+    for (int cell = 0; cell < tissue.cell_count(); ++cell)
+      covered += rest_covered_area(tissue, cell, membrane_.half_width());
+    packing_.wall_radius = std::sqrt(covered / (pi * options_.initial_fraction));
+    state.values = random_polygons(config, tissue, membrane_.half_width(), packing_.wall_radius, attempt);
+    state.values.insert(state.values.end(), tissue.initial_rest_lengths().begin(), tissue.initial_rest_lengths().end());
+  }
+
+  Packing run() {
+    minimise(options_.step_tolerance);
+    // The cells give way, so the last steps approach the final fraction geometrically.
+    const double enough = options_.final_fraction - 0.02 * options_.increment;
+    const int most_steps = 100 + static_cast<int>(10.0 * (options_.final_fraction - options_.initial_fraction) / options_.increment);
+    while (packing_.report.fraction < enough) {
+      if (packing_.report.compression_steps == most_steps) refuse();
+      compress();
+      minimise(options_.step_tolerance);
+    }
+    minimise(options_.force_tolerance);
+    return std::move(packing_);
+  }
+
+ private:
+  void compress() {
+    PackingReport& report = packing_.report;
+    const double target = std::min(report.fraction + options_.increment, options_.final_fraction);
+    const double factor = std::sqrt(report.fraction / target);
+    packing_.wall_radius *= factor;
+    draw_in(packing_.state, factor);
+    ++report.compression_steps;
+  }
+
+  void minimise(double force_tolerance) {
+    TissueState& state = packing_.state;
+    const auto wall = std::make_shared<Confinement>(0.0, 0.0, packing_.wall_radius,
+                                                    options_.wall_range * membrane_.contact_distance,
+                                                    options_.wall_energy, state.tissue.vertex_count());
+    TissueOde ode(state.tissue, 0, ode_options_, {wall});
+    const FireReport minimised =
+        minimise_energy(fire_, ode, state,
+                        fire_options(state.tissue, ode_options_.contact, force_tolerance, options_.maximum_iterations));
+    PackingReport& report = packing_.report;
+    report.iterations += minimised.iterations;
+    report.largest_force = minimised.largest_force;
+    report.fraction = packing_fraction(state.tissue, state.view(), membrane_, packing_.wall_radius);
+    if (!minimised.converged)
+      throw NumericalError(fmt::format(
+          "packing: at packing fraction {:.4f} the largest force is still {:.2g} after {} iterations of FIRE; raise "
+          "packing.maximum_iterations or the tolerance {:g}",
+          report.fraction, minimised.largest_force, minimised.iterations, force_tolerance));
+    const double range = options_.final_fraction - options_.initial_fraction;
+    report_progress(progress_, "packing",
+                    range > 0.0 ? std::clamp((report.fraction - options_.initial_fraction) / range, 0.0, 1.0) : 1.0,
+                    fmt::format("packing fraction {:.4f}, {} iterations, largest force {:.1e}", report.fraction,
+                                minimised.iterations, minimised.largest_force));
+  }
+
+  [[noreturn]] void refuse() const {
+    throw NumericalError(
+        fmt::format("packing: the cells give way at packing fraction {:.4f} and cannot be compressed to "
+                    "packing.final_fraction = {}; lower it or raise packing.area_stiffness",
+                    packing_.report.fraction, options_.final_fraction));
+  }
+
+  const PackingParameters& options_;
+  Membrane membrane_;
+  TissueOdeOptions ode_options_;
+  const Progress& progress_;
+  Fire fire_;
+  Packing packing_;
+};
+
 }  // namespace
 
-double covered_area(const TissueState& state, double half_membrane) {
-  const StateView view = state.view();
-  double covered = 0.0;
-  for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
-    double area = 0.0, perimeter = 0.0;
-    for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v) {
-      const int w = state.tissue.next(v);
-      area += 0.5 * (view.x[v] * view.y[w] - view.x[w] * view.y[v]);
-      perimeter += std::hypot(view.x[w] - view.x[v], view.y[w] - view.y[v]);
-    }
-    covered += covered_area(area, perimeter, half_membrane);
-  }
-  return covered;
-}
-
-Packing make_packing(const Config& config, const Progress& progress) {
-  const PackingParameters& options = config.packing;
-  check(options);
+Packing make_packing(const Config& config, const Progress& progress, int attempt) {
+  check(config.packing);
   const Tissue tissue = make_tissue(config);
-  const double contact = contact_distance(config), half_membrane = 0.5 * contact;
-  const TissueOdeOptions ode_options = elastic_options(config, options.adhesion);
-
-  Packing packing;
-  TissueState& state = packing.state;
-  state.tissue = packing_tissue(tissue, options);
-  double covered = 0.0;
-  for (int cell = 0; cell < tissue.cell_count(); ++cell) covered += rest_covered_area(tissue, cell, half_membrane);
-  packing.wall_radius = std::sqrt(covered / (pi * options.initial_fraction));
-  state.values = random_polygons(config, tissue, half_membrane, packing.wall_radius);
-  state.values.insert(state.values.end(), tissue.initial_rest_lengths().begin(), tissue.initial_rest_lengths().end());
-
-  Fire fire(state.layout().positions());
-  const FireOptions fire_settings = fire_options(state.tissue, ode_options.contact, options.force_tolerance, options.maximum_iterations);
-  while (true) {
-    const auto wall = std::make_shared<Confinement>(0.0, 0.0, packing.wall_radius, options.wall_range * contact,
-                                                    options.wall_energy, tissue.vertex_count());
-    TissueOde ode(state.tissue, 0, ode_options, {wall});
-    const FireReport minimised = minimise_energy(fire, ode, state, fire_settings);
-    packing.report.iterations += minimised.iterations;
-    packing.report.largest_force = minimised.largest_force;
-    packing.report.fraction = covered_area(state, half_membrane) / (pi * packing.wall_radius * packing.wall_radius);
-    report_progress(progress, "packing",
-                    (packing.report.fraction - options.initial_fraction) /
-                        (options.final_fraction - options.initial_fraction),
-                    fmt::format("packing fraction {:.4f}, {} iterations, largest force {:.1e}", packing.report.fraction,
-                                minimised.iterations, minimised.largest_force));
-    if (packing.report.fraction >= options.final_fraction-1e-4 ) break;
-    const double target = std::min(packing.report.fraction + options.increment, options.final_fraction);
-    const double factor = std::sqrt(packing.report.fraction / target);
-    packing.wall_radius *= factor;
-    draw_in(state, factor);
-    ++packing.report.compression_steps;
-    if(packing.report.compression_steps>100) break;
-  }
-  state.tissue = tissue;
+  Packing packing = Compression(config, tissue, attempt, progress).run();
+  packing.state.tissue = tissue;
   return packing;
 }
 

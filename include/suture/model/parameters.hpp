@@ -118,16 +118,18 @@ struct PurseStringParameters {
 
 struct PackingParameters {
   double initial_fraction = 0.78;
-  double final_fraction = 0.92;
+  double final_fraction = 0.99;
   double increment = 0.005;
   double adhesion = 0.0;           ///< l1 while compressing
-  double area_stiffness = 2.0;     ///< k_a while compressing
-  double bending_stiffness = 0.0;  ///< k_b while compressing
+  double area_stiffness = 16.0;    ///< k_a while compressing
+  double bending_stiffness = 0.01; ///< k_b while compressing
   double shape_noise = 0.01;       ///< random radial displacement of the first polygons' corners, relative
   double wall_energy = 1.0;        ///< e_cb
   double wall_range = 0.5;         ///< sigma, in units of s
-  double force_tolerance = 1e-6;   ///< largest force component after FIRE
-  int maximum_iterations = 200000; ///< FIRE iterations per compression step
+  double step_tolerance = 1e-3;    ///< largest force component before the next compression step
+  double force_tolerance = 1e-6;   ///< largest force component of the finished packing
+  int maximum_iterations = 200000; ///< FIRE iterations per minimisation
+  int attempts = 3;                ///< packings tried, each from its own random numbers, until one is accepted
   bool operator==(const PackingParameters&) const = default;
 };
 

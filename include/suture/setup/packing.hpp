@@ -23,11 +23,9 @@ struct Packing {
   PackingReport report;
 };
 
-/// Area covered by the cells with their membranes, sum of a + p sigma + pi sigma^2, sigma half a membrane width.
-double covered_area(const TissueState& state, double half_membrane);
-
-/// Packs the tissue `config` describes; the same config gives the same bits. Throws InputError when the fractions make
-/// no sense, NumericalError when a minimisation does not reach packing.force_tolerance.
-Packing make_packing(const Config& config, const Progress& progress = {});
+/// Packs the tissue `config` describes. The same config and attempt give the same bits; another attempt draws other
+/// random numbers from the same seed. Throws InputError when the fractions make no sense, NumericalError when a
+/// minimisation does not converge or the cells give way before the final fraction.
+Packing make_packing(const Config& config, const Progress& progress = {}, int attempt = 0);
 
 }  // namespace suture
