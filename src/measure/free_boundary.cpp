@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <compare>
+#include <numbers>
+
 #include "measure/boundary_pieces.hpp"
 #include "suture/errors.hpp"
 
@@ -10,11 +13,11 @@ namespace {
 
 double cross(Point o, Point a, Point b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
 
-/// Where an exposed vertex stands on the boundary.
+/// Where an exposed vertex stands on the boundary: on a piece, or `step` vertices past its end (before its start).
 struct Place {
   int loop, order;
   double parameter;
-  int vertex;
+  int step, vertex;
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
@@ -32,7 +35,11 @@ struct FreeBoundary::Impl {
   void trace(const Tissue& tissue, const StateView& state);
   void add_to_loop(BoundaryLoop& loop, const Piece& piece, Point origin);
   void place_vertices(const Tissue& tissue);
-  int nearest_piece(const Tissue& tissue, int vertex, double& parameter) const;
+  const Piece* own_arc(int vertex) const;
+  const Piece* piece_before(const Tissue& tissue, int vertex, int& step) const;
+  const Piece* piece_after(const Tissue& tissue, int vertex, int& step) const;
+  bool reaches(Point a, Point b) const;
+  Place at(const Piece& piece, double parameter, int step, int vertex) const;
 };
 
 void FreeBoundary::Impl::add_to_loop(BoundaryLoop& loop, const Piece& piece, Point origin) {
@@ -78,40 +85,67 @@ void FreeBoundary::Impl::trace(const Tissue& tissue, const StateView& state) {
   }
 }
 
-int FreeBoundary::Impl::nearest_piece(const Tissue& tissue, int vertex, double& parameter) const {
-  // The probe of a vertex sits in the middle of its arc.
-  for (const Piece& piece : boundary.of_vertex(vertex))
-    if (piece.arc && piece.low_cut < 0 && piece.high_cut < 0) {
-      parameter = 0.5 * piece.high;
-      return boundary.index(piece);
-    }
-  const Point p = probe_centre(tissue, grid, vertex, membrane.probe_radius());
-  double least = membrane.probe_radius() * membrane.probe_radius();
-  int best = -1;
-  const auto look_at = [&](const Piece& piece) {
-    const BoundaryPieces::Nearest found = boundary.nearest(piece, p);
-    if (found.squared_distance > least) return;
-    least = found.squared_distance;
-    best = boundary.index(piece);
-    parameter = found.parameter;
-  };
-  for (const Piece& piece : boundary.of_vertex(vertex)) look_at(piece);
-  for (const Piece& piece : boundary.of_vertex(tissue.previous(vertex)))
-    if (!piece.arc) look_at(piece);
-  if (best < 0)
-    for (const Piece& piece : boundary.pieces()) look_at(piece);
-  return best;
+/// The piece of the vertex's own arc that holds the middle of the arc, where its probe sits.
+const Piece* FreeBoundary::Impl::own_arc(int vertex) const {
+  for (const Piece& piece : boundary.of_vertex(vertex)) {
+    if (!piece.arc) continue;
+    if (piece.low_cut < 0 && piece.high_cut < 0) return &piece;
+    if (piece.low <= boundary.middle_of_arc(vertex) && boundary.middle_of_arc(vertex) <= piece.high) return &piece;
+  }
+  return nullptr;
+}
+
+/// The last piece met going back along the membrane, no farther than half a probe's circumference.
+const Piece* FreeBoundary::Impl::piece_before(const Tissue& tissue, int vertex, int& step) const {
+  double length = 0.0;
+  step = 0;
+  for (int v = tissue.previous(vertex); length < std::numbers::pi * membrane.probe_radius(); v = tissue.previous(v)) {
+    ++step;
+    length += grid[v].length;
+    if (!boundary.of_vertex(v).empty()) return &boundary.of_vertex(v).back();
+    if (v == vertex) break;
+  }
+  return nullptr;
+}
+
+const Piece* FreeBoundary::Impl::piece_after(const Tissue& tissue, int vertex, int& step) const {
+  double length = 0.0;
+  step = 0;
+  for (int v = vertex; length < std::numbers::pi * membrane.probe_radius(); v = tissue.next(v)) {
+    --step;
+    length += grid[v].length;
+    if (!boundary.of_vertex(v).empty()) return &boundary.of_vertex(v).front();
+    if (v == tissue.previous(vertex)) break;
+  }
+  return nullptr;
+}
+
+bool FreeBoundary::Impl::reaches(Point a, Point b) const {
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) <= membrane.probe_radius() * membrane.probe_radius();
+}
+
+Place FreeBoundary::Impl::at(const Piece& piece, double parameter, int step, int vertex) const {
+  const int index = boundary.index(piece);
+  return {loop_of[index], order_of[index], parameter, step, vertex};
 }
 
 /// A vertex belongs to the loop its probe's centre lies on. Between concave segments the probe is pushed off its
-/// bisector, so the nearest point of the loop counts; a vertex without any within rho sits in a pocket of its own cell.
+/// bisector: the vertex then stands between the pieces before and after it along the membrane, if they come within rho
+/// of its probe. If none does, it sits in a pocket of its own cell, which no probe can enter.
 void FreeBoundary::Impl::place_vertices(const Tissue& tissue) {
   places.clear();
   for (int v = 0; v < tissue.vertex_count(); ++v) {
     if (!exposure.exposed[v]) continue;
-    double parameter = 0.0;
-    const int piece = nearest_piece(tissue, v, parameter);
-    if (piece >= 0) places.push_back({loop_of[piece], order_of[piece], parameter, v});
+    if (const Piece* arc = own_arc(v)) {
+      places.push_back(at(*arc, 0.5 * (arc->low + arc->high), 0, v));
+      continue;
+    }
+    const Point p = probe_centre(tissue, grid, v, membrane.probe_radius());
+    int step = 0;
+    if (const Piece* piece = piece_before(tissue, v, step); piece && reaches(piece->end, p))
+      places.push_back(at(*piece, piece->high, step, v));
+    else if (const Piece* next = piece_after(tissue, v, step); next && reaches(next->start, p))
+      places.push_back(at(*next, next->low, step, v));
   }
   std::sort(places.begin(), places.end());
   for (const Place& place : places) loops[place.loop].vertices.push_back(place.vertex);
