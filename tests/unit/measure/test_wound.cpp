@@ -116,6 +116,25 @@ TEST_CASE("cracks are sealed and the rim is not a wound", "[unit]") {
   CHECK(find_wound(wounded.tissue, wounded.view(), m)->area == Approx(4.586).epsilon(1e-3));
 }
 
+TEST_CASE("walls exactly as far apart as the probe is wide are no trouble", "[unit]") {
+  const Membrane m = default_membrane();
+  const auto ablated = [](Point p) { return std::hypot(p.x, p.y) < 1.2; };
+  FreeBoundary boundary(m);
+  int checked = 0;
+  for (const double factor : {1.0, 1.0 + 1e-15, 1.0 - 1e-15})
+    for (const double angle : {0.0, 0.3, 1.1}) {
+      TissueState state = tissue_of(honeycomb({.gap = 2.0 * m.probe_radius() * factor, .removed = ablated}));
+      move(state, angle, 0.1, 0.2);
+      boundary.evaluate(state.tissue, state.view());
+      CHECK(boundary.largest_gap() < 1e-6);
+      const auto wound = find_wound(boundary);
+      REQUIRE(wound);
+      CHECK(wound->area == Approx(8.2798).epsilon(1e-3));
+      ++checked;
+    }
+  CHECK(checked == 9);
+}
+
 TEST_CASE("of two holes the larger is the wound, unless the other was", "[unit]") {
   const Membrane m = default_membrane();
   const TissueState state = tissue_of(honeycomb({.removed = [](Point p) {
