@@ -36,9 +36,10 @@ enum class EventHandling {
   automatic,  ///< located while rare, on the event grid once they storm
   located,    ///< by root finding
   grid,       ///< at multiples of event_interval
+  each_step,  ///< after every step of the integrator (published simulations)
 };
 
-enum class Method { automatic, cvode, cvode_adams, rkc2, euler, rk4, verlet, erk };
+enum class Method { cvode, rkc2, euler, rk4 };
 
 /// What a run does.
 enum class Protocol {
@@ -55,6 +56,7 @@ struct TissueParameters {
   int cells = 50;
   int vertices = 30;             ///< per cell
   double shape_parameter = 1.2;  ///< rest shape A = p^2/(4 pi a)
+  bool operator==(const TissueParameters&) const = default;
 };
 
 /// A group of cells that differs from the default; unset fields inherit from [tissue], [area], ....
@@ -63,19 +65,23 @@ struct CellType {
   int cells = 0;
   std::optional<int> vertices;
   std::optional<double> rest_area, shape_parameter, area_stiffness, membrane_stiffness, bending_stiffness, tau, memory;
+  bool operator==(const CellType&) const = default;
 };
 
 struct AreaParameters {
   double stiffness = 16.0;  ///< k_a
+  bool operator==(const AreaParameters&) const = default;
 };
 
 struct MembraneParameters {
   SpringLaw law = SpringLaw::quadratic;
   double stiffness = 1.0;  ///< k_l
+  bool operator==(const MembraneParameters&) const = default;
 };
 
 struct BendingParameters {
   double stiffness = 0.01;  ///< k_b
+  bool operator==(const BendingParameters&) const = default;
 };
 
 struct ContactParameters {
@@ -84,11 +90,13 @@ struct ContactParameters {
   double adhesion = 0.1;           ///< l1, in units of s; 0 = pure repulsion
   double range = 0.3;              ///< l2, in units of s
   bool self_contact = true;
+  bool operator==(const ContactParameters&) const = default;
 };
 
 struct PlasticityParameters {
   double tau = 9.6;     ///< relaxation time of rest lengths; infinity = elastic
   double memory = 0.0;  ///< xi, shape-memory ratio
+  bool operator==(const PlasticityParameters&) const = default;
 };
 
 struct PurseStringParameters {
@@ -104,6 +112,7 @@ struct PurseStringParameters {
   bool capture = true;
   EventHandling event_handling = EventHandling::automatic;
   double event_interval = 0.05;
+  bool operator==(const PurseStringParameters&) const = default;
 };
 
 struct PackingParameters {
@@ -113,10 +122,12 @@ struct PackingParameters {
   double adhesion = 0.0;           ///< l1 while compressing
   double area_stiffness = 2.0;     ///< k_a while compressing
   double bending_stiffness = 0.0;  ///< k_b while compressing
+  double shape_noise = 0.01;       ///< random radial displacement of the first polygons' corners, relative
   double wall_energy = 1.0;        ///< e_cb
   double wall_range = 0.5;         ///< sigma, in units of s
   double force_tolerance = 1e-6;   ///< largest force component after FIRE
   int maximum_iterations = 200000; ///< FIRE iterations per compression step
+  bool operator==(const PackingParameters&) const = default;
 };
 
 struct AnnealParameters {
@@ -124,6 +135,7 @@ struct AnnealParameters {
   double duration = 1.0;         ///< constant-energy motion
   double time_step = 0.0025;     ///< velocity Verlet
   double relaxation_time = 100.0;///< overdamped, after the constant-energy motion
+  bool operator==(const AnnealParameters&) const = default;
 };
 
 struct WoundParameters {
@@ -132,6 +144,7 @@ struct WoundParameters {
   double minimum_area = 5.0;      ///< a packing whose wound is smaller is refused
   double maximum_area = 6.5;
   double maximum_hole = 0.05;     ///< largest hole of an accepted packing
+  bool operator==(const WoundParameters&) const = default;
 };
 
 struct CompressionParameters {
@@ -139,11 +152,13 @@ struct CompressionParameters {
   double duration = 100.0;  ///< T
   double recovery = 200.0;  ///< time observed after release
   double plate_energy = 1.0;///< plate stiffness, as the confinement law
+  bool operator==(const CompressionParameters&) const = default;
 };
 
 struct DipoleParameters {
   double force = 0.01;      ///< on each vertex, away from the centre of mass
   double duration = 500.0;  ///< T
+  bool operator==(const DipoleParameters&) const = default;
 };
 
 struct RunParameters {
@@ -152,29 +167,33 @@ struct RunParameters {
   double end_time = 2000.0;     ///< after creation of the purse string
   double closed_area = 0.01;    ///< the wound counts as closed below this area
   std::string start_from;       ///< run.h5 of an earlier run; its last complete stage is continued
+  bool operator==(const RunParameters&) const = default;
 };
 
 struct IntegratorParameters {
   Method method = Method::cvode;
   double tolerance = 1e-3;           ///< on positions, in units of l0(0)
-  double rest_length_tolerance = 1e-3; ///< relative, on rest lengths, in multiples of `tolerance`-independent units
+  double rest_length_tolerance = 1e-3; ///< on rest lengths, in units of l0(0)
   int maximum_order = 5;
   double maximum_step = std::numeric_limits<double>::infinity();
   std::optional<double> time_step;   ///< fixed-step methods; unset: 0.01 l0/sqrt(k_a)
   double skin = 1.0;                 ///< Verlet-list skin, in units of l0(0)
   int threads = 1;
+  bool operator==(const IntegratorParameters&) const = default;
 };
 
 struct OutputParameters {
   double interval = 0.5;        ///< of wound.csv samples
   double frame_interval = 5.0;  ///< of stored configurations
   int pictures = 6;             ///< frames drawn along the run
+  bool operator==(const OutputParameters&) const = default;
 };
 
 struct UnitParameters {
   double rest_area_um2 = 25.0;             ///< a0
   double unsticking_force_nN = 1.0;        ///< f_adh
   double constriction_rate_um_per_s = 0.3; ///< omega
+  bool operator==(const UnitParameters&) const = default;
 };
 
 struct Config {
@@ -196,6 +215,7 @@ struct Config {
   IntegratorParameters integrator;
   OutputParameters output;
   UnitParameters units;
+  bool operator==(const Config&) const = default;
 };
 
 }  // namespace suture

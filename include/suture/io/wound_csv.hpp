@@ -1,0 +1,32 @@
+// wound.csv: the wound against time, one row per sample.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "suture/io/provenance.hpp"
+
+namespace suture {
+
+/// Model units. What could not be measured (no wound, no adjacent cell) stays empty and leaves an empty field.
+struct WoundSample {
+  double time = 0.0;  ///< since the purse string started
+  std::optional<double> wound_area;
+  std::optional<double> mean_shape;  ///< of the wound-adjacent cells
+  std::optional<double> perimeter;
+  int ring_size = 0;                 ///< purse-string vertices
+  int parts = 0;                     ///< pieces the wound consists of
+  double shortest_segment = 0.0;     ///< smallest l0/l0(0)
+  double energy = 0.0;
+};
+
+/// CSV text with one header line; numbers are the shortest that read back to the same double. wound_area_fraction is
+/// relative to the largest area among the samples.
+std::string to_csv(std::span<const WoundSample> samples, const OutputScales& scales);
+
+/// Writes the file so that either the old or the new one is there, whole. Throws FileError.
+void write_wound_csv(std::span<const WoundSample> samples, const OutputScales& scales, const std::filesystem::path& path);
+
+}  // namespace suture

@@ -1,0 +1,74 @@
+// The allowed words of every key that takes one.
+#include <array>
+
+#include "config_table.hpp"
+
+namespace suture {
+
+namespace {
+
+template <class Enumeration>
+constexpr Choice choice(std::string_view name, Enumeration value, std::string_view doc = {}) {
+  return {name, static_cast<int>(value), doc};
+}
+
+constexpr std::array spring_laws{
+    choice("relative", SpringLaw::relative, "k/2 (l/l0 - 1)^2, strain relative to the current rest length"),
+    choice("quadratic", SpringLaw::quadratic, "k/2 ((l - l0)/l0(0))^2, constant spring constant (printed equation)"),
+};
+constexpr std::array tether_laws{
+    choice("saturating_force", TetherLaw::saturating_force, "|f| = k_p min(l, l_y/2) until the tether yields at l_y"),
+    choice("saturating_energy", TetherLaw::saturating_energy, "f = k_p l for l < l_y/2, zero beyond (printed Eq. 6)"),
+    choice("published", TetherLaw::published,
+           "each component clipped at +l_y/2 only; depends on direction, for validation only"),
+    choice("ramp", TetherLaw::ramp, "f = k_p l up to l_y/2, then linearly back to zero at l_y; continuous"),
+};
+constexpr std::array capture_laws{
+    choice("split", CaptureLaw::split, "the split spring's rest length is halved and its tension kept"),
+    choice("tension_free", CaptureLaw::tension_free, "both halves start without tension"),
+    choice("slip", CaptureLaw::slip, "halves the wrong spring, as the published simulations did; validation only"),
+};
+constexpr std::array event_handlings{
+    choice("auto", EventHandling::automatic, "located while events are rare, on the event grid once they storm"),
+    choice("automatic", EventHandling::automatic),
+    choice("located", EventHandling::located, "each event is located in time"),
+    choice("grid", EventHandling::grid, "events are processed at multiples of event_interval"),
+    choice("each_step", EventHandling::each_step, "after every integrator step, as the published simulations did"),
+};
+constexpr std::array methods{
+    choice("cvode", Method::cvode, "implicit BDF of variable order with a minimising Newton solver"),
+    choice("rkc2", Method::rkc2, "stabilised explicit Runge-Kutta-Chebyshev of order 2, adaptive"),
+    choice("rkc", Method::rkc2),
+    choice("euler", Method::euler, "explicit Euler with a fixed step (published simulations)"),
+    choice("rk4", Method::rk4, "classical Runge-Kutta of order 4 with a fixed step"),
+};
+constexpr std::array protocols{
+    choice("wound_closure", Protocol::wound_closure, "pack, anneal, ablate, relax and close a wound"),
+    choice("compression", Protocol::compression, "one cell between two plates, then released (Fig. 2c)"),
+    choice("dipole", Protocol::dipole, "one cell pulled by an extensile force dipole (Fig. S5)"),
+};
+constexpr std::array stages{
+    choice("packing", Stage::packing, "stop after the cells are compressed to the final packing fraction"),
+    choice("anneal", Stage::anneal, "stop after adhesion, thermal motion and relaxation"),
+    choice("ablation", Stage::ablation, "stop after the cells are removed and the wound has relaxed"),
+    choice("closure", Stage::closure, "run until the wound is closed or end_time"),
+};
+
+}  // namespace
+
+template <>
+std::span<const Choice> choices_of<SpringLaw>() { return spring_laws; }
+template <>
+std::span<const Choice> choices_of<TetherLaw>() { return tether_laws; }
+template <>
+std::span<const Choice> choices_of<CaptureLaw>() { return capture_laws; }
+template <>
+std::span<const Choice> choices_of<EventHandling>() { return event_handlings; }
+template <>
+std::span<const Choice> choices_of<Method>() { return methods; }
+template <>
+std::span<const Choice> choices_of<Protocol>() { return protocols; }
+template <>
+std::span<const Choice> choices_of<Stage>() { return stages; }
+
+}  // namespace suture

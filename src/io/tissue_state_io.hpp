@@ -1,0 +1,42 @@
+// TissueState and its parts as HDF5 groups; bit-exact both ways. The names here are the file layout
+// (docs/reference/output-format.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/hdf5_file.hpp"
+#include "suture/model/state.hpp"
+
+namespace suture {
+
+inline constexpr const char* trajectory_schema = "suture-trajectory";
+inline constexpr int trajectory_schema_version = 1;
+
+/// Opens a file and checks its schema attributes. Throws FileError.
+Hdf5File open_trajectory(const std::filesystem::path& path);
+
+/// first_vertex, initial_rest_length, reference_rest_length and one dataset per material property.
+void write_tissue(const Hdf5Group& group, const Tissue& tissue, const std::vector<double>& reference_rest_length);
+
+struct StoredTissue {
+  Tissue tissue;
+  std::vector<double> reference_rest_length;
+};
+/// Throws FileError when the sizes do not agree, InputError when Tissue refuses its arguments.
+StoredTissue read_tissue(const Hdf5Group& group);
+
+/// time, position, rest_length and the group purse_string.
+void write_configuration(const Hdf5Group& group, const TissueState& state);
+
+struct StoredConfiguration {
+  double time = 0.0;
+  PurseString purse_string;
+  std::vector<double> values;
+};
+/// vertices: of the tissue it belongs to. Throws FileError when the sizes do not agree.
+StoredConfiguration read_configuration(const Hdf5Group& group, int vertices);
+
+std::string stage_name(Stage stage);
+
+}  // namespace suture

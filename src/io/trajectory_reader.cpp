@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/hdf5_file.hpp"
+#include "io/tissue_state_io.hpp"
+#include "suture/errors.hpp"
+#include "suture/io/trajectory.hpp"
+
+namespace suture {
+namespace {
+
+constexpr Stage protocol_order[] = {Stage::packing, Stage::anneal, Stage::ablation, Stage::closure};
+
+Provenance read_provenance(const Hdf5Group& root) {
+  const Hdf5Group group = root.group("provenance");
+  return {.config_text = group.text("config_text"),
+          .resolved_config = group.text("resolved_config"),
+          .command_line = group.text("command_line"),
+          .start_time = group.text_attribute("start_time"),
+          .parent = group.text("parent"),
+          .seed = static_cast<std::uint64_t>(group.integer_attribute("seed")),
+          .threads = static_cast<int>(group.integer_attribute("threads")),
+          .position_tolerance = group.number_attribute("position_tolerance"),
+          .rest_length_tolerance = group.number_attribute("rest_length_tolerance"),
+          .scales = {.length_um = root.number_attribute("length_um"), .time_min = root.number_attribute("time_min")}};
+}
+
+TissueState read_stage(const Hdf5Group& group) {
+  StoredTissue stored = read_tissue(group.group("tissue"));
+  StoredConfiguration configuration = read_configuration(group, stored.tissue.vertex_count());
+  return {.tissue = std::move(stored.tissue),
+          .purse_string = std::move(configuration.purse_string),
+          .reference_rest_length = std::move(stored.reference_rest_length),
+          .time = configuration.time,
+          .values = std::move(configuration.values)};
+}
+
+TrajectoryFrame read_frame(const Hdf5Group& group, const Tissue& tissue) {
+  StoredConfiguration configuration = read_configuration(group, tissue.vertex_count());
+  TrajectoryFrame frame{.time = configuration.time,
+                        .purse_string = std::move(configuration.purse_string),
+                        .values = std::move(configuration.values)};
+  const Hdf5Group cells = group.group("cells");
+  for (const std::string& name : cells.members()) {
+    CellField field{{name, cells.unit_of(name), cells.description_of(name)}, cells.doubles(name)};
+    if (field.values.size() != static_cast<std::size_t>(tissue.cell_count()))
+      throw FileError(fmt::format("'cells/{}' has {} entries for {} cells", name, field.values.size(), tissue.cell_count()));
+    frame.extras.cell_fields.push_back(std::move(field));
+  }
+  const std::vector<double> outline = group.pairs("wound_outline");
+  const std::size_t points = outline.size() / 2;
+  for (std::size_t i = 0; i < points; ++i) frame.extras.wound_outline.emplace_back(outline[i], outline[points + i]);
+  return frame;
+}
+
+void read_frames(const Hdf5Group& root, Trajectory& trajectory) {
+  const Hdf5Group group = root.group("frames");
+  const std::vector<std::string> names = group.members();
+  const std::int64_t marked = root.integer_attribute("frame_count");
+  if (static_cast<std::int64_t>(names.size()) != marked)
+    throw FileError(fmt::format("{} frames are there, but the commit mark says {}", names.size(), marked));
+  if (names.empty()) return;
+  StoredTissue stored = read_tissue(root.group("tissue"));
+  trajectory.tissue = std::move(stored.tissue);
+  trajectory.reference_rest_length = std::move(stored.reference_rest_length);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    // Written numbers outgrow six digits, after which the alphabetical order is not the numerical one.
+    const std::string name = fmt::format("{:06}", i);
+    try {
+      trajectory.frames.push_back(read_frame(group.group(name), trajectory.tissue));
+    } catch (const FileError& error) {
+      throw FileError(fmt::format("frame {}: {}", name, error.what()));
+    }
+  }
+}
+
+void read_observables(const Hdf5Group& root, Trajectory& trajectory) {
+  const Hdf5Group group = root.group("observables");
+  for (const std::string& name : group.members()) {
+    const Hdf5Group member = group.group(name);
+    Series series{{name, member.unit_of("value"), member.description_of("value")}, member.doubles("time"),
+                  member.doubles("value")};
+    if (series.time.size() != series.value.size())
+      throw FileError(fmt::format("observable '{}' has {} times for {} values", name, series.time.size(), series.value.size()));
+    trajectory.observables.push_back(std::move(series));
+  }
+}
+
+void read_events(const Hdf5Group& root, Trajectory& trajectory) {
+  const Hdf5Group group = root.group("events");
+  const std::vector<double> time = group.doubles("time");
+  const std::vector<std::string> kind = group.texts("kind");
+  const std::vector<int> cell = group.integers("cell"), vertex = group.integers("vertex");
+  if (kind.size() != time.size() || cell.size() != time.size() || vertex.size() != time.size())
+    throw FileError("the columns of the event table differ in length");
+  const auto index = [](int value) { return value < 0 ? std::nullopt : std::optional<int>(value); };
+  for (std::size_t i = 0; i < time.size(); ++i)
+    trajectory.events.push_back({time[i], kind[i], index(cell[i]), index(vertex[i])});
+}
+
+// What is wrong with a file that was handed in is the user's input, whatever layer noticed it.
+template <class Read>
+auto reading(const std::filesystem::path& path, Read read) {
+  try {
+    return read(open_trajectory(path).root());
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+TissueState Trajectory::state(int frame) const {
+  const TrajectoryFrame& stored = frames.at(frame);
+  return {.tissue = tissue,
+          .purse_string = stored.purse_string,
+          .reference_rest_length = reference_rest_length,
+          .time = stored.time,
+          .values = stored.values};
+}
+
+const Series* Trajectory::observable(std::string_view name) const {
+  const auto found = std::find_if(observables.begin(), observables.end(),
+                                  [name](const Series& series) { return series.quantity.name == name; });
+  return found == observables.end() ? nullptr : &*found;
+}
+
+Trajectory read_trajectory(const std::filesystem::path& path) {
+  return reading(path, [](const Hdf5Group& root) {
+    Trajectory trajectory;
+    trajectory.provenance = read_provenance(root);
+    trajectory.code_version = root.text_attribute("code_version");
+    trajectory.code_commit = root.text_attribute("code_commit");
+    trajectory.complete = root.integer_attribute("complete") == 1;
+    const Hdf5Group stages = root.group("stages");
+    for (const Stage stage : protocol_order)
+      if (stages.has(stage_name(stage))) trajectory.stages.emplace(stage, read_stage(stages.group(stage_name(stage))));
+    read_frames(root, trajectory);
+    read_observables(root, trajectory);
+    read_events(root, trajectory);
+    if (root.has("summary")) trajectory.summary = root.text("summary");
+    return trajectory;
+  });
+}
+
+std::pair<Stage, TissueState> read_last_stage(const std::filesystem::path& path) {
+  return reading(path, [](const Hdf5Group& root) {
+    const Hdf5Group stages = root.group("stages");
+    for (auto stage = std::rbegin(protocol_order); stage != std::rend(protocol_order); ++stage)
+      if (stages.has(stage_name(*stage))) return std::pair(*stage, read_stage(stages.group(stage_name(*stage))));
+    throw FileError("no stage of it was finished, so there is nothing to start from");
+  });
+}
+
+}  // namespace suture

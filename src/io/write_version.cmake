@@ -1,0 +1,16 @@
+# Run at build time: asks git for the commit and rewrites the header only if something changed.
+set(COMMIT "unknown")
+set(DIRTY false)
+if(GIT)
+  execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} rev-parse HEAD
+                  OUTPUT_VARIABLE head OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE result)
+  if(result EQUAL 0)
+    set(COMMIT "${head}")
+    execute_process(COMMAND ${GIT} -C ${SOURCE_DIR} diff-index --quiet HEAD -- RESULT_VARIABLE changed ERROR_QUIET)
+    if(NOT changed EQUAL 0)
+      set(DIRTY true)
+    endif()
+  endif()
+endif()
+string(STRIP "${FLAGS}" FLAGS)
+configure_file(${TEMPLATE} ${OUTPUT} @ONLY)

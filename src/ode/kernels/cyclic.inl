@@ -1,0 +1,127 @@
+// Factorisation of symmetric cyclic block-pentadiagonal matrices of 2 x 2 blocks, L D L^T with the last two block rows
+// as a border that absorbs the cyclic corners. T is Double8 (eight matrices at once, one per lane) or double.
+
+template <class T>
+struct Block2 {
+  T xx, xy, yx, yy;
+};
+
+template <class T>
+inline Block2<T> times(const Block2<T>& a, const Block2<T>& b) {
+  return {a.xx * b.xx + a.xy * b.yx, a.xx * b.xy + a.xy * b.yy, a.yx * b.xx + a.yy * b.yx, a.yx * b.xy + a.yy * b.yy};
+}
+template <class T>
+inline Block2<T> times_transpose(const Block2<T>& a, const Block2<T>& b) {
+  return {a.xx * b.xx + a.xy * b.xy, a.xx * b.yx + a.xy * b.yy, a.yx * b.xx + a.yy * b.xy, a.yx * b.yx + a.yy * b.yy};
+}
+template <class T>
+inline Block2<T> operator-(const Block2<T>& a, const Block2<T>& b) {
+  return {a.xx - b.xx, a.xy - b.xy, a.yx - b.yx, a.yy - b.yy};
+}
+
+inline double square_root(double a) { return std::sqrt(a); }
+inline double maximum(double a, double b) { return a > b ? a : b; }
+
+/// Inverse of a symmetric block after lifting its lowest eigenvalue to `floor`, which keeps the preconditioner definite.
+template <class T>
+inline Block2<T> safe_inverse(Block2<T> a, double floor) {
+  const T mean = 0.5 * (a.xx + a.yy), half = 0.5 * (a.xx - a.yy);
+  const T lowest = mean - square_root(half * half + a.xy * a.xy);
+  const T lift = maximum(floor - lowest, T{});
+  a.xx += lift, a.yy += lift;
+  const T inverse = 1.0 / (a.xx * a.yy - a.xy * a.xy);
+  return {a.yy * inverse, -a.xy * inverse, -a.xy * inverse, a.xx * inverse};
+}
+
+template <class T>
+void cyclic_factor(const CyclicBatch& m) {
+  auto* d = reinterpret_cast<Block2<T>*>(m.diagonal);
+  auto* l1 = reinterpret_cast<Block2<T>*>(m.lower1);
+  auto* l2 = reinterpret_cast<Block2<T>*>(m.lower2);
+  const int n = m.rows, p = n - 2;  // p band rows, then the border
+  Block2<T>* border[2] = {reinterpret_cast<Block2<T>*>(m.border), reinterpret_cast<Block2<T>*>(m.border) + n};
+  for (int i = 0; i < p; ++i) {
+    if (i >= 1) {
+      Block2<T> w = l1[i];
+      if (i >= 2) {
+        const Block2<T> a2 = l2[i];
+        w = w - times_transpose(a2, l1[i - 1]);
+        l2[i] = times(a2, d[i - 2]);
+        d[i] = d[i] - times_transpose(l2[i], a2);
+      }
+      l1[i] = times(w, d[i - 1]);
+      d[i] = d[i] - times_transpose(l1[i], w);
+    }
+    d[i] = safe_inverse(d[i], m.floor);
+  }
+  Block2<T> coupling = l1[n - 1];
+  Block2<T> w1[2]{}, w2[2]{};  // the two previous border blocks before scaling by the pivot
+  for (int j = 0; j < p; ++j) {
+    Block2<T> w[2];
+    for (int k = 0; k < 2; ++k) {
+      w[k] = border[k][j];
+      if (j >= 1) w[k] = w[k] - times_transpose(w1[k], l1[j]);
+      if (j >= 2) w[k] = w[k] - times_transpose(w2[k], l2[j]);
+      border[k][j] = times(w[k], d[j]);
+      // What the next columns subtract is (scaled block) D (L row)^T = (unscaled block)(L row)^T.
+      d[p + k] = d[p + k] - times_transpose(border[k][j], w[k]);
+      w2[k] = w1[k];
+      w1[k] = w[k];
+    }
+    coupling = coupling - times_transpose(border[1][j], w[0]);
+  }
+  d[p] = safe_inverse(d[p], m.floor);
+  l1[n - 1] = times(coupling, d[p]);
+  d[p + 1] = safe_inverse(d[p + 1] - times_transpose(l1[n - 1], coupling), m.floor);
+}
+
+template <class T>
+inline void subtract(T* r, const Block2<T>& a, const T* x) {
+  r[0] -= a.xx * x[0] + a.xy * x[1];
+  r[1] -= a.yx * x[0] + a.yy * x[1];
+}
+template <class T>
+inline void subtract_transpose(T* r, const Block2<T>& a, const T* x) {
+  r[0] -= a.xx * x[0] + a.yx * x[1];
+  r[1] -= a.xy * x[0] + a.yy * x[1];
+}
+
+template <class T>
+void cyclic_solve(const CyclicBatch& m, double* rhs) {
+  const auto* d = reinterpret_cast<const Block2<T>*>(m.diagonal);
+  const auto* l1 = reinterpret_cast<const Block2<T>*>(m.lower1);
+  const auto* l2 = reinterpret_cast<const Block2<T>*>(m.lower2);
+  const int n = m.rows, p = n - 2;
+  const Block2<T>* border[2] = {reinterpret_cast<const Block2<T>*>(m.border), reinterpret_cast<const Block2<T>*>(m.border) + n};
+  T* r = reinterpret_cast<T*>(rhs);
+  T last[2][2] = {{r[2 * p], r[2 * p + 1]}, {r[2 * p + 2], r[2 * p + 3]}};
+  for (int i = 0; i < p; ++i) {
+    if (i >= 1) subtract(r + 2 * i, l1[i], r + 2 * (i - 1));
+    if (i >= 2) subtract(r + 2 * i, l2[i], r + 2 * (i - 2));
+    subtract(last[0], border[0][i], r + 2 * i);
+    subtract(last[1], border[1][i], r + 2 * i);
+  }
+  subtract(last[1], l1[n - 1], last[0]);
+  const auto scale = [](const Block2<T>& a, T* x) {
+    const T x0 = x[0];
+    x[0] = a.xx * x0 + a.xy * x[1];
+    x[1] = a.yx * x0 + a.yy * x[1];
+  };
+  scale(d[p], last[0]);
+  scale(d[p + 1], last[1]);
+  subtract_transpose(last[0], l1[n - 1], last[1]);
+  for (int i = p - 1; i >= 0; --i) {
+    scale(d[i], r + 2 * i);
+    if (i + 1 < p) subtract_transpose(r + 2 * i, l1[i + 1], r + 2 * (i + 1));
+    if (i + 2 < p) subtract_transpose(r + 2 * i, l2[i + 2], r + 2 * (i + 2));
+    subtract_transpose(r + 2 * i, border[0][i], last[0]);
+    subtract_transpose(r + 2 * i, border[1][i], last[1]);
+  }
+  r[2 * p] = last[0][0], r[2 * p + 1] = last[0][1];
+  r[2 * p + 2] = last[1][0], r[2 * p + 3] = last[1][1];
+}
+
+void cyclic_factor1(const CyclicBatch& m) { cyclic_factor<double>(m); }
+void cyclic_factor8(const CyclicBatch& m) { cyclic_factor<Double8>(m); }
+void cyclic_solve1(const CyclicBatch& m, double* rhs) { cyclic_solve<double>(m, rhs); }
+void cyclic_solve8(const CyclicBatch& m, double* rhs) { cyclic_solve<Double8>(m, rhs); }

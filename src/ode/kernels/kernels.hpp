@@ -1,0 +1,116 @@
+// The hot loops of the tissue, compiled once per instruction set and chosen at run time.
+//
+// Every cell owns a padded run of slots: slot 0 repeats the last vertex, slots 1..n are the vertices, and the slots
+// after them repeat the first ones, so that neighbours along the membrane and windows of eight consecutive vertices
+// are plain contiguous loads:
+//
+//     base + 0        : vertex n-1
+//     base + 1 + i    : vertex i
+//     base + 1 + n + i: vertex i again, i < 9
+//
+// Segment quantities at a slot belong to the segment from that vertex to the next.
+#pragma once
+
+#include <cstddef>
+
+namespace suture::kernels {
+
+constexpr int halo = 10;  ///< padded slots of a cell beyond its vertices
+
+/// Membrane, bending and area of all cells. Arrays of slots unless noted.
+struct Shell {
+  int cells = 0;
+  const int* base = nullptr;   ///< first slot of each cell
+  const int* count = nullptr;  ///< vertices of each cell
+  bool relative_law = false;
+  const double *rest_area = nullptr, *area_stiffness = nullptr, *bending_stiffness = nullptr;  ///< per cell
+  double *x = nullptr, *y = nullptr;
+  double *ex = nullptr, *ey = nullptr, *length = nullptr, *inverse_length = nullptr, *inverse_length2 = nullptr;
+  double *theta = nullptr;
+  /// Rest length as a function of the length, l0 = rest_a + rest_b l: rest_b = 0 in a plain rate evaluation, the
+  /// eliminated implicit step otherwise (numerics.md, "Eliminating the rest lengths").
+  double *rest_a = nullptr, *rest_b = nullptr;
+  const double* stiffness = nullptr;  ///< quadratic: k_l/l0(0)^2; relative: k_l
+  double *gx = nullptr, *gy = nullptr;  ///< dU/dr
+  double* work_x = nullptr;             ///< dU/de scratch
+  double* work_y = nullptr;
+  double* area = nullptr;               ///< per cell
+};
+
+/// Second derivatives of the shell at one point (see shell_linearise).
+struct ShellHessian {
+  double *sxx = nullptr, *sxy = nullptr, *syy = nullptr;  ///< d2U/de2 of one segment
+  double *nx = nullptr, *ny = nullptr;                    ///< d(phi)/de of one segment
+  double *ax = nullptr, *ay = nullptr;                    ///< da/dr of one vertex
+  double *pressure = nullptr, *area_curvature = nullptr;  ///< per cell: dU/da, d2U/da2
+  double *vx = nullptr, *vy = nullptr, *ox = nullptr, *oy = nullptr;  ///< padded direction and product
+};
+
+/// Scalars of the contact law and of self-contact.
+struct ContactScalars {
+  double cutoff2 = 0, inner2 = 0;  ///< squares of s(1 + l2) and s(1 + l1)
+  // u'(d)/d = inner_a/d + inner_b inside s(1 + l1), outer_a/d + outer_b beyond; u'' = inner_b, outer_b.
+  double inner_a = 0, inner_b = 0, outer_a = 0, outer_b = 0;
+  double self2 = 0;  ///< s^2
+};
+
+/// Vertex p against `segments` <= 7 consecutive segments that start at slot q of another cell.
+struct Window {
+  int p, q, segments;
+};
+
+struct SelfPair {
+  int i, j;
+};
+
+/// One live term of the contact energy, linearised: with w = (1, -(1-t), -t) on (p, q, q + 1), normal n, tangent m,
+/// alpha = n.(w v), g = m.(w v), beta = n.(v_{q+1} - v_q):  v.H v = na alpha^2 + gg g^2 + 2 gb g beta + bb beta^2.
+struct ContactFactor {
+  double nx, ny, t, na, gg, gb, bb;
+  int p, q;
+};
+
+/// Symmetric cyclic block-pentadiagonal matrices of 2 x 2 blocks, `lanes` of them side by side (1 or 8): element
+/// (row, component, lane) is at [(row * 4 + component) * lanes + lane]. rows >= 3. The last two rows are the border,
+/// which holds their couplings to rows 0 .. rows-3; lower1[rows-1] couples the two.
+struct CyclicBatch {
+  int rows = 0;
+  double floor = 0.05;  ///< lowest pivot eigenvalue; the matrices are I + (something mostly positive)
+  double *diagonal = nullptr, *lower1 = nullptr, *lower2 = nullptr, *border = nullptr;  ///< border: 2 * rows blocks
+};
+
+struct Table {
+  const char* name;
+  /// Lengths, angles and dU/dr of the shell; overwrites gx, gy including the halo. x, y must be padded.
+  void (*shell_gradient)(const Shell&);
+  void (*shell_linearise)(const Shell&, const ShellHessian&);
+  /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded.
+  void (*shell_product)(const Shell&, const ShellHessian&);
+  void (*contact_gradient)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*, std::size_t);
+  /// Appends live terms; returns their number. `factors` must have room for 16 per window and 1 per pair.
+  std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*,
+                                   std::size_t, double lowest_curvature, ContactFactor* factors);
+  void (*contact_product)(const ContactFactor*, std::size_t, const double* vx, const double* vy, double* ox, double* oy);
+  /// Bit mask of the segments base+1 .. base+n of one cell within `reach` of (px, py), 64 segments per word.
+  void (*near_segments)(const Shell&, int cell, double px, double py, double reach2, unsigned long long* words);
+  void (*cyclic_factor1)(const CyclicBatch&);
+  void (*cyclic_factor8)(const CyclicBatch&);
+  /// rhs: (row, x or y, lane); overwritten by the solution.
+  void (*cyclic_solve1)(const CyclicBatch&, double* rhs);
+  void (*cyclic_solve8)(const CyclicBatch&, double* rhs);
+  // Vectors: n is a multiple of 8 (zero-padded).
+  double (*weighted_square_sum)(std::size_t n, const double* x, const double* w);  ///< sum (x w)^2
+  double (*dot)(std::size_t n, const double* x, const double* y);
+  void (*linear_sum)(std::size_t n, double a, const double* x, double b, const double* y, double* z);
+  void (*linear_combination)(std::size_t n, int count, const double* c, const double* const* x, double* z);
+  void (*scale_add_multi)(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z);
+};
+
+extern const Table baseline;
+extern const Table avx2;
+extern const Table avx512;
+
+/// The fastest table this processor can run.
+const Table& best();
+
+}  // namespace suture::kernels

@@ -1,0 +1,150 @@
+// Area, membrane and bending of every cell. With e_i = r_{i+1} - r_i, length l_i, direction angle phi_i and turning
+// angle theta_i = phi_i - phi_{i-1}, the energy depends on the positions through e and the area only:
+//     dU/de_i = T_i e_i/l_i + k_b (theta_i - theta_{i+1}) n_i/l_i,   n_i = e_i rotated by +90 degrees / l_i,
+//     dU/dr_i = dU/de_{i-1} - dU/de_i + dU/da da/dr_i.
+
+inline int padded_lanes(int n) { return (n + 2 + lanes - 1) / lanes * lanes; }
+
+struct Tension {
+  Double8 force, stiffness;
+};
+
+/// dU/dl and its derivative along l0 = a + b l.
+inline Tension tension(bool relative, Double8 k, Double8 a, Double8 b, Double8 l) {
+  const Double8 rest = a + b * l;
+  if (!relative) return {k * (l - rest), k * (1.0 - b)};
+  const Double8 inverse = 1.0 / rest;
+  const Double8 ratio = l * inverse;
+  const Double8 scale = k * inverse * inverse;
+  return {k * inverse * (ratio - 1.0), scale * (1.0 + b * (1.0 - 2.0 * ratio))};
+}
+
+/// Signed turning angle from (ex0, ey0) to (ex1, ey1), lengths l0, l1; in (-pi, pi].
+inline Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, Double8 ey1, Double8 l1) {
+  const Double8 cross = ex0 * ey1 - ey0 * ex1;
+  const Double8 dot = ex0 * ex1 + ey0 * ey1;
+  const Double8 d = l0 * l1 + dot;
+  const Double8 w = cross / (d + square_root(d * d + cross * cross));  // tan(theta/4)
+  Double8 angle = 4.0 * small_arctangent(w);
+  const Mask8 large = !((w < 0.4143) & (w > -0.4143));  // beyond a right angle, or degenerate
+  if (any(large)) [[unlikely]]
+    for (int k = 0; k < lanes; ++k)
+      if (large[k]) angle[k] = std::atan2(cross[k], dot[k]);
+  return angle;
+}
+
+inline void shell_geometry(const Shell& s, int cell) {
+  const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+  const double x0 = s.x[b + 1], y0 = s.y[b + 1];
+  Double8 twice_area{};
+  for (int j = b; j < b + m; j += lanes) {
+    const Double8 x = load(s.x + j), y = load(s.y + j);
+    const Double8 ex = load(s.x + j + 1) - x, ey = load(s.y + j + 1) - y;
+    const Double8 l = square_root(ex * ex + ey * ey);
+    const Double8 inverse = 1.0 / l;
+    store(s.ex + j, ex);
+    store(s.ey + j, ey);
+    store(s.length + j, l);
+    store(s.inverse_length + j, inverse);
+    store(s.inverse_length2 + j, inverse * inverse);
+    const Mask8 slot = Mask8{0, 1, 2, 3, 4, 5, 6, 7} + (j - b);
+    const Mask8 own = (slot >= 1) & (slot <= n);
+    twice_area += select(own, (x - x0) * ey - (y - y0) * ex, Double8{});
+  }
+  s.area[cell] = 0.5 * sum(twice_area);
+  s.ex[b - 1] = s.ex[b], s.ey[b - 1] = s.ey[b], s.length[b - 1] = s.length[b];  // the unused angle at slot 0 is benign
+  for (int j = b; j < b + m; j += lanes)
+    store(s.theta + j, turning_angle(load(s.ex + j - 1), load(s.ey + j - 1), load(s.length + j - 1), load(s.ex + j),
+                                     load(s.ey + j), load(s.length + j)));
+  for (double* a : {s.ex, s.ey, s.inverse_length2})  // the contact windows read these beyond the last vertex
+    for (int k = 1; k < suture::kernels::halo - 1; ++k) a[b + n + k] = a[b + k];
+}
+
+void shell_gradient(const Shell& s) {
+  for (int cell = 0; cell < s.cells; ++cell) {
+    shell_geometry(s, cell);
+    const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+    const Double8 kb = broadcast(s.bending_stiffness[cell]);
+    for (int j = b; j < b + m; j += lanes) {
+      const Double8 ex = load(s.ex + j), ey = load(s.ey + j), inverse = load(s.inverse_length + j);
+      const Tension t = tension(s.relative_law, load(s.stiffness + j), load(s.rest_a + j), load(s.rest_b + j), load(s.length + j));
+      const Double8 along = t.force * inverse;
+      const Double8 across = kb * (load(s.theta + j) - load(s.theta + j + 1)) * inverse * inverse;
+      store(s.work_x + j, along * ex - across * ey);
+      store(s.work_y + j, along * ey + across * ex);
+    }
+    s.work_x[b] = s.work_x[b + n];
+    s.work_y[b] = s.work_y[b + n];
+    const double strain = s.area[cell] / s.rest_area[cell] - 1.0;
+    const Double8 half_pressure = broadcast(0.5 * s.area_stiffness[cell] * strain / s.rest_area[cell]);
+    for (int j = b; j < b + m; j += lanes) {
+      const Double8 ex = load(s.ex + j) + load(s.ex + j - 1), ey = load(s.ey + j) + load(s.ey + j - 1);
+      store(s.gx + j, load(s.work_x + j - 1) - load(s.work_x + j) + half_pressure * ey);
+      store(s.gy + j, load(s.work_y + j - 1) - load(s.work_y + j) - half_pressure * ex);
+    }
+    for (double* g : {s.gx + b, s.gy + b}) {  // contacts accumulate into the halo next
+      g[0] = 0.0;
+      for (int k = 1; k < suture::kernels::halo; ++k) g[n + k] = 0.0;
+    }
+  }
+}
+
+/// d2U/de_i2 = K m m^T + (T/l) n n^T - (M/l^2)(m n^T + n m^T) + (bending: k_b along d(theta)), with m = e/l and
+/// M = dU/dphi. A compressed segment's negative T/l is left out: the Newton matrix stays definite, the gradient is exact.
+void shell_linearise(const Shell& s, const ShellHessian& h) {
+  for (int cell = 0; cell < s.cells; ++cell) {
+    const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+    const Double8 kb = broadcast(s.bending_stiffness[cell]);
+    for (int j = b; j < b + m; j += lanes) {
+      const Double8 inverse = load(s.inverse_length + j);
+      const Double8 mx = load(s.ex + j) * inverse, my = load(s.ey + j) * inverse;
+      const Tension t = tension(s.relative_law, load(s.stiffness + j), load(s.rest_a + j), load(s.rest_b + j), load(s.length + j));
+      const Double8 geometric = maximum(t.force, Double8{}) * inverse;
+      const Double8 moment = kb * (load(s.theta + j) - load(s.theta + j + 1)) * inverse * inverse;
+      store(h.sxx + j, t.stiffness * mx * mx + geometric * my * my + 2.0 * moment * mx * my);
+      store(h.sxy + j, (t.stiffness - geometric) * mx * my - moment * (mx * mx - my * my));
+      store(h.syy + j, t.stiffness * my * my + geometric * mx * mx - 2.0 * moment * mx * my);
+      store(h.nx + j, -my * inverse);
+      store(h.ny + j, mx * inverse);
+      store(h.ax + j, 0.5 * (load(s.ey + j) + load(s.ey + j - 1)));
+      store(h.ay + j, -0.5 * (load(s.ex + j) + load(s.ex + j - 1)));
+    }
+    const double a0 = s.rest_area[cell];
+    h.area_curvature[cell] = s.area_stiffness[cell] / (a0 * a0);
+    h.pressure[cell] = s.area_stiffness[cell] * (s.area[cell] / a0 - 1.0) / a0;
+  }
+}
+
+void shell_product(const Shell& s, const ShellHessian& h) {
+  for (int cell = 0; cell < s.cells; ++cell) {
+    const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+    const Double8 kb = broadcast(s.bending_stiffness[cell]);
+    Double8 area_change{};
+    for (int j = b; j < b + m; j += lanes) {  // change of direction of each segment
+      const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
+      store(s.theta + j, load(h.nx + j) * wx + load(h.ny + j) * wy);
+      const Mask8 slot = Mask8{0, 1, 2, 3, 4, 5, 6, 7} + (j - b);
+      const Mask8 own = (slot >= 1) & (slot <= n);
+      area_change += select(own, load(h.ax + j) * load(h.vx + j) + load(h.ay + j) * load(h.vy + j), Double8{});
+    }
+    for (int j = b; j < b + m; j += lanes) {
+      const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
+      const Double8 bend = kb * (2.0 * load(s.theta + j) - load(s.theta + j - 1) - load(s.theta + j + 1));
+      store(s.work_x + j, load(h.sxx + j) * wx + load(h.sxy + j) * wy + bend * load(h.nx + j));
+      store(s.work_y + j, load(h.sxy + j) * wx + load(h.syy + j) * wy + bend * load(h.ny + j));
+    }
+    s.work_x[b] = s.work_x[b + n];
+    s.work_y[b] = s.work_y[b + n];
+    const Double8 rank_one = broadcast(h.area_curvature[cell] * sum(area_change));
+    const Double8 half_pressure = broadcast(0.5 * h.pressure[cell]);
+    for (int j = b; j < b + m; j += lanes) {
+      const Double8 turn_x = load(h.vx + j + 1) - load(h.vx + j - 1), turn_y = load(h.vy + j + 1) - load(h.vy + j - 1);
+      store(h.ox + j, load(s.work_x + j - 1) - load(s.work_x + j) + rank_one * load(h.ax + j) + half_pressure * turn_y);
+      store(h.oy + j, load(s.work_y + j - 1) - load(s.work_y + j) + rank_one * load(h.ay + j) - half_pressure * turn_x);
+    }
+    for (double* o : {h.ox + b, h.oy + b}) {
+      o[0] = 0.0;
+      for (int k = 1; k < suture::kernels::halo; ++k) o[n + k] = 0.0;
+    }
+  }
+}

@@ -1,0 +1,87 @@
+#include "ode/padded_tissue.hpp"
+
+#include <cstring>
+
+namespace suture {
+
+PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law) {
+  constexpr int front = 8;  // the kernels may read one slot before a cell's first
+  slots_ = front;
+  for (int c = 0; c < tissue.cell_count(); ++c) {
+    const int n = tissue.vertex_count(c);
+    base_.push_back(slots_);
+    count_.push_back(n);
+    for (int k = 0; k < n; ++k) slot_of_.push_back(slots_ + 1 + k);
+    slots_ += (n + kernels::halo + 7) / 8 * 8;
+    const CellMaterial& material = tissue.material(c);
+    rest_area_.push_back(material.rest_area);
+    area_stiffness_.push_back(material.area_stiffness);
+    bending_stiffness_.push_back(material.bending_stiffness);
+  }
+  slots_ += 16;  // windows of eight that start at the last vertex
+  vertex_of_.assign(slots_, 0);
+  for (int c = 0; c < tissue.cell_count(); ++c)
+    for (int k = 0; k < count_[c] + kernels::halo; ++k)
+      vertex_of_[base_[c] + k] = tissue.first_vertex(c) + (k + count_[c] - 1) % count_[c];
+  area_.resize(base_.size());
+  pressure_.resize(base_.size());
+  area_curvature_.resize(base_.size());
+
+  constexpr int arrays = 28;
+  buffer_ = AlignedBuffer(static_cast<std::size_t>(arrays) * (slots_ + 8));
+  double* stiffness = nullptr;
+  for (double** array : {&shell.x, &shell.y, &shell.ex, &shell.ey, &shell.length, &shell.inverse_length,
+                         &shell.inverse_length2, &shell.theta, &shell.rest_a, &shell.rest_b, &stiffness, &shell.gx,
+                         &shell.gy, &shell.work_x, &shell.work_y, &hessian.sxx, &hessian.sxy, &hessian.syy, &hessian.nx,
+                         &hessian.ny, &hessian.ax, &hessian.ay, &hessian.vx, &hessian.vy, &hessian.ox, &hessian.oy})
+    *array = buffer_.take(slots_);
+  for (int c = 0; c < tissue.cell_count(); ++c)
+    for (int k = 0; k < count_[c] + kernels::halo; ++k) {
+      const double length = tissue.initial_rest_length(vertex_of_[base_[c] + k]);
+      const double stiffness_k = tissue.material(c).membrane_stiffness;
+      stiffness[base_[c] + k] = law == SpringLaw::relative ? stiffness_k : stiffness_k / (length * length);
+    }
+  shell.cells = tissue.cell_count();
+  shell.base = base_.data();
+  shell.count = count_.data();
+  shell.relative_law = law == SpringLaw::relative;
+  shell.rest_area = rest_area_.data();
+  shell.area_stiffness = area_stiffness_.data();
+  shell.bending_stiffness = bending_stiffness_.data();
+  shell.stiffness = stiffness;
+  shell.area = area_.data();
+  hessian.pressure = pressure_.data();
+  hessian.area_curvature = area_curvature_.data();
+}
+
+void PaddedTissue::unpack(std::span<const double> values, double* padded) const {
+  const double* source = values.data();
+  for (int c = 0; c < shell.cells; ++c) {
+    double* a = padded + base_[c];
+    const int n = count_[c];
+    std::memcpy(a + 1, source, n * sizeof(double));
+    a[0] = a[n];
+    for (int k = 1; k < kernels::halo; ++k) a[n + k] = a[k];
+    source += n;
+  }
+}
+
+void PaddedTissue::pack(const double* padded, std::span<double> values) const {
+  double* target = values.data();
+  for (int c = 0; c < shell.cells; ++c) {
+    std::memcpy(target, padded + base_[c] + 1, count_[c] * sizeof(double));
+    target += count_[c];
+  }
+}
+
+void PaddedTissue::fold_and_pack(double* padded, std::span<double> values) const {
+  for (int c = 0; c < shell.cells; ++c) {
+    double* a = padded + base_[c];
+    const int n = count_[c];
+    for (int k = kernels::halo - 1; k >= 1; --k) a[k] += a[n + k];
+    a[n] += a[0];
+  }
+  pack(padded, values);
+}
+
+}  // namespace suture

@@ -1,0 +1,279 @@
+#include <catch2/catch.hpp>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "suture/errors.hpp"
+#include "suture/io/trajectory.hpp"
+#include "suture/io/trajectory_check.hpp"
+#include "support/sample_tissue.hpp"
+#include "support/scratch_folder.hpp"
+
+using namespace suture;
+using namespace suture::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+bool same_bits(std::span<const double> a, std::span<const double> b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+void check_same_state(const TissueState& a, const TissueState& b) {
+  CHECK(same_bits({&a.time, 1}, {&b.time, 1}));
+  CHECK(same_bits(a.values, b.values));
+  CHECK(same_bits(a.reference_rest_length, b.reference_rest_length));
+  CHECK(same_bits(a.tissue.initial_rest_lengths(), b.tissue.initial_rest_lengths()));
+  CHECK(a.tissue.mean_initial_rest_length() == b.tissue.mean_initial_rest_length());
+  REQUIRE(a.tissue.cell_count() == b.tissue.cell_count());
+  for (int cell = 0; cell < a.tissue.cell_count(); ++cell) {
+    CHECK(a.tissue.vertex_count(cell) == b.tissue.vertex_count(cell));
+    const CellMaterial p = a.tissue.material(cell), q = b.tissue.material(cell);
+    const double first[] = {p.rest_area, p.area_stiffness, p.membrane_stiffness, p.bending_stiffness, p.tau, p.memory};
+    const double second[] = {q.rest_area, q.area_stiffness, q.membrane_stiffness, q.bending_stiffness, q.tau, q.memory};
+    CHECK(same_bits(first, second));
+  }
+  const PurseString &r = a.purse_string, &s = b.purse_string;
+  CHECK(r.vertex == s.vertex);
+  CHECK(r.mode == s.mode);
+  REQUIRE(r.spring.size() == s.spring.size());
+  for (int j = 0; j < r.size(); ++j) {
+    const double first[] = {r.spring[j].rest_length, r.spring[j].start_time, r.spring[j].reference_length};
+    const double second[] = {s.spring[j].rest_length, s.spring[j].start_time, s.spring[j].reference_length};
+    CHECK(same_bits(first, second));
+  }
+  const double first[] = {r.shrink_rate, r.minimum_rest_length}, second[] = {s.shrink_rate, s.minimum_rest_length};
+  CHECK(same_bits(first, second));
+}
+
+Provenance sample_provenance() {
+  return {.config_text = std::string(100000, '#') + "\n[tissue]\nseed = 7\n",  // longer than an attribute may be
+          .resolved_config = "[tissue]\nseed = 7\ncells = 18\n",
+          .command_line = "suture run embryo.toml --set name=\"\xc3\xa9\"",
+          .start_time = utc_now(),
+          .seed = std::numeric_limits<std::uint64_t>::max(),
+          .threads = 2,
+          .position_tolerance = 1e-3,
+          .rest_length_tolerance = 1e-4,
+          .scales = {.length_um = 5.0, .time_min = 16.6667 / 60.0}};
+}
+
+const Quantity wound_area{"wound_area", "area", "area of the wound"};
+
+// Three frames (the second with another ring), two stages, one series, two events.
+void write_sample(const std::filesystem::path& path) {
+  TrajectoryWriter writer(path, sample_provenance());
+  TissueState state = sample_tissue();
+  TissueState packed = state;
+  packed.purse_string = {};
+  packed.values.erase(packed.values.begin() + state.tissue.vertex_count(),
+                      packed.values.begin() + state.layout().points());
+  packed.values.erase(packed.values.begin() + 2 * state.tissue.vertex_count(),
+                      packed.values.end() - state.tissue.vertex_count());
+  packed.reference_rest_length.clear();
+  writer.write_stage(Stage::packing, packed);
+  const CellField shape{{"shape_parameter", "1", "p^2/(4 pi a)"}, std::vector<double>(state.tissue.cell_count(), 1.2)};
+  writer.write_frame(state, {.cell_fields = {shape}, .wound_outline = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0 / 3.0}}});
+  for (int i = 0; i < 3000; ++i) writer.record(wound_area, 0.1 * i, std::exp(-0.001 * i));
+  writer.record(StoredEvent{33.5, "yield", 3, 41});
+  writer.commit();
+  packed.time = 40.0;
+  packed.reference_rest_length = state.reference_rest_length;
+  writer.write_frame(packed);
+  writer.record(StoredEvent{33.6, "closure", {}, {}});
+  state.time = 41.0;
+  writer.write_frame(state);
+  writer.write_stage(Stage::closure, state);
+  writer.write_summary({.status = RunStatus::closed, .seed = 7});
+  writer.write_summary({.status = RunStatus::closed, .seed = 8});
+  writer.close();
+}
+
+}  // namespace
+
+TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
+  const ScratchFolder folder;
+  write_sample(folder / "run.h5");
+  const Trajectory trajectory = read_trajectory(folder / "run.h5");
+
+  CHECK(trajectory.complete);
+  REQUIRE(trajectory.frames.size() == 3);
+  const TissueState original = sample_tissue();
+  check_same_state(trajectory.state(0), original);
+  CHECK(trajectory.frames[1].purse_string.empty());
+  CHECK(trajectory.frames[2].time == 41.0);
+  REQUIRE(trajectory.stages.size() == 2);
+  CHECK(trajectory.stages.at(Stage::packing).reference_rest_length.empty());
+  TissueState last = original;
+  last.time = 41.0;
+  check_same_state(trajectory.stages.at(Stage::closure), last);
+  const auto [stage, state] = read_last_stage(folder / "run.h5");
+  CHECK(stage == Stage::closure);
+  check_same_state(state, last);
+
+  const FrameExtras& extras = trajectory.frames[0].extras;
+  REQUIRE(extras.cell_fields.size() == 1);
+  CHECK(extras.cell_fields[0].quantity.name == "shape_parameter");
+  CHECK(extras.cell_fields[0].quantity.description == "p^2/(4 pi a)");
+  REQUIRE(extras.wound_outline.size() == 3);
+  CHECK(extras.wound_outline[2].y() == 1.0 / 3.0);
+
+  const Series* const series = trajectory.observable("wound_area");
+  REQUIRE(series != nullptr);
+  REQUIRE(series->value.size() == 3000);
+  CHECK(series->value[2999] == std::exp(-0.001 * 2999));
+  CHECK(series->quantity.unit == "area");
+  CHECK(trajectory.observable("nothing") == nullptr);
+  REQUIRE(trajectory.events.size() == 2);
+  CHECK(trajectory.events[0] == StoredEvent{33.5, "yield", 3, 41});
+  CHECK(trajectory.events[1] == StoredEvent{33.6, "closure", {}, {}});
+  CHECK_THAT(trajectory.summary, Contains("\"seed\": 8"));
+}
+
+TEST_CASE("a trajectory carries its provenance", "[unit]") {
+  const ScratchFolder folder;
+  write_sample(folder / "run.h5");
+  const Trajectory trajectory = read_trajectory(folder / "run.h5");
+  const Provenance expected = sample_provenance(), &found = trajectory.provenance;
+  CHECK(found.config_text == expected.config_text);
+  CHECK(found.resolved_config == expected.resolved_config);
+  CHECK(found.command_line == expected.command_line);
+  CHECK(found.parent.empty());
+  CHECK(found.seed == expected.seed);
+  CHECK(found.threads == 2);
+  CHECK(found.position_tolerance == 1e-3);
+  CHECK(found.rest_length_tolerance == 1e-4);
+  CHECK(found.scales.length_um == 5.0);
+  CHECK(found.scales.time_min == expected.scales.time_min);
+  CHECK(trajectory.code_version == build_information().version);
+  CHECK(!trajectory.code_commit.empty());
+}
+
+TEST_CASE("a committed file is whole and says that it is unfinished", "[unit]") {
+  const ScratchFolder folder;
+  {
+    TrajectoryWriter writer(folder / "run.h5", sample_provenance());
+    writer.write_frame(sample_tissue());
+    CHECK(std::filesystem::is_empty(folder.path()));
+    writer.commit();
+    TissueState later = sample_tissue();
+    later.time += 1.0;
+    writer.write_frame(later);
+    writer.record(wound_area, 1.0, 2.0);
+  }  // stopped without close(): what came after the commit is lost, what came before is not
+  const Trajectory trajectory = read_trajectory(folder / "run.h5");
+  CHECK(!trajectory.complete);
+  CHECK(trajectory.frames.size() == 1);
+  const FileReport report = check_file(folder / "run.h5");
+  CHECK(report.verdict == FileVerdict::invalid);
+  REQUIRE(report.problems.size() == 1);
+  CHECK_THAT(report.problems[0], Contains("did not finish"));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+}
+
+TEST_CASE("a writer refuses frames that do not belong together", "[unit]") {
+  const ScratchFolder folder;
+  TrajectoryWriter writer(folder / "run.h5", sample_provenance());
+  TissueState state = sample_tissue();
+  writer.write_frame(state);
+  CHECK_THROWS_AS(writer.write_frame(state), FileError);  // same time
+  TissueState other = sample_tissue(3);
+  other.time = 99.0;
+  CHECK_THROWS_WITH(writer.write_frame(other), Contains("another tissue"));
+  writer.close();
+  state.time = 99.0;
+  CHECK_THROWS_AS(writer.write_frame(state), FileError);
+  CHECK_THROWS_AS(writer.commit(), FileError);
+}
+
+TEST_CASE("a folder that does not exist is reported by name and leaves nothing behind", "[unit]") {
+  const ScratchFolder folder;
+  TrajectoryWriter writer(folder / "missing" / "run.h5", sample_provenance());
+  CHECK_THROWS_WITH(writer.close(), Contains("missing/run.h5") && Contains("No such file"));
+  std::filesystem::create_directory(folder / "missing");
+  writer.close();  // the failure cost nothing: the trajectory is still in memory
+  CHECK(read_trajectory(folder / "missing" / "run.h5").complete);
+}
+
+TEST_CASE("files that are not trajectories are refused with the reason", "[unit]") {
+  const ScratchFolder folder;
+  CHECK_THROWS_WITH(read_trajectory(folder / "absent.h5"), Contains("absent.h5"));
+  CHECK_THROWS_AS(read_trajectory(folder / "absent.h5"), InputError);
+  write_bytes(folder / "text.h5", "this is no HDF5 file");
+  CHECK_THROWS_WITH(read_trajectory(folder / "text.h5"), Contains("cannot be opened as an HDF5 file"));
+  CHECK(check_file(folder / "text.h5").verdict == FileVerdict::unreadable);
+  CHECK(check_file(folder / "absent.h5").verdict == FileVerdict::unreadable);
+  CHECK(check_file(folder.path()).verdict == FileVerdict::unreadable);
+  write_bytes(folder / "empty.h5", "");
+  CHECK(check_file(folder / "empty.h5").verdict == FileVerdict::unreadable);
+
+  write_sample(folder / "run.h5");
+  std::string bytes = read_bytes(folder / "run.h5");
+  write_bytes(folder / "truncated.h5", bytes.substr(0, bytes.size() / 2));
+  CHECK_THROWS_WITH(read_trajectory(folder / "truncated.h5"), Contains("truncated.h5") && Contains("truncated file"));
+  CHECK(check_file(folder / "truncated.h5").verdict == FileVerdict::unreadable);
+
+  const std::size_t schema = bytes.find("suture-trajectory");
+  REQUIRE(schema != std::string::npos);
+  bytes[schema] = 'S';
+  write_bytes(folder / "foreign.h5", bytes);
+  CHECK_THROWS_WITH(read_trajectory(folder / "foreign.h5"), Contains("not a suture trajectory"));
+  CHECK(check_file(folder / "foreign.h5").verdict == FileVerdict::unreadable);
+}
+
+TEST_CASE("damage in single bytes is refused or harmless, never a crash", "[unit]") {
+  const ScratchFolder folder;
+  {
+    TrajectoryWriter writer(folder / "run.h5", sample_provenance());
+    writer.write_frame(sample_tissue(1));
+    writer.close();
+  }
+  const std::string bytes = read_bytes(folder / "run.h5");
+  int refused = 0, accepted = 0;
+  for (std::size_t position = 0; position < bytes.size(); position += 997) {
+    std::string damaged = bytes;
+    damaged[position] = static_cast<char>(~damaged[position]);
+    write_bytes(folder / "damaged.h5", damaged);
+    try {
+      read_trajectory(folder / "damaged.h5");
+      ++accepted;
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  CHECK(accepted > 0);
+  CHECK(refused > 0);
+}
+
+TEST_CASE("check accepts a good trajectory and names what is wrong with a bad one", "[unit]") {
+  const ScratchFolder folder;
+  write_sample(folder / "run.h5");
+  const FileReport good = check_file(folder / "run.h5");
+  CHECK(good.verdict == FileVerdict::valid);
+  CHECK(good.problems.empty());
+  CHECK_THAT(good.content, Contains("18 cells, 3 frames, 2 stages, 1 observables, 2 events"));
+
+  const auto problem_of = [&](const TissueState& state, double observed) {
+    TrajectoryWriter writer(folder / "bad.h5", sample_provenance());
+    writer.write_frame(state);
+    writer.record(wound_area, 0.0, observed);
+    writer.close();
+    const FileReport report = check_file(folder / "bad.h5");
+    CHECK(report.verdict == FileVerdict::invalid);
+    REQUIRE(!report.problems.empty());
+    return report.problems.front();
+  };
+  TissueState clockwise = sample_tissue();
+  for (double& x : clockwise.mutable_view().x) x = -x;
+  CHECK_THAT(problem_of(clockwise, 1.0), Contains("frame 0: cell 0 is not counter-clockwise"));
+  TissueState infinite = sample_tissue();
+  infinite.values[3] = std::numeric_limits<double>::infinity();
+  CHECK_THAT(problem_of(infinite, 1.0), Contains("not finite"));
+  TissueState collapsed = sample_tissue();
+  collapsed.mutable_view().rest_length[30] = 0.0;
+  CHECK_THAT(problem_of(collapsed, 1.0), Contains("rest length after cell 1"));
+  CHECK_THAT(problem_of(sample_tissue(), std::nan("")), Contains("observable wound_area"));
+}

@@ -1,0 +1,75 @@
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <sstream>
+#include <vector>
+
+#include "suture/io/trajectory_check.hpp"
+#include "suture/io/wound_csv.hpp"
+#include "support/scratch_folder.hpp"
+
+using namespace suture;
+using namespace suture::test;
+
+namespace {
+
+constexpr OutputScales scales{.length_um = 5.0, .time_min = 0.25};
+
+std::vector<std::vector<std::string>> table(const std::string& text) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> row{""};
+    for (const char letter : line)
+      if (letter == ',')
+        row.emplace_back();
+      else
+        row.back() += letter;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+const std::vector<WoundSample> samples{
+    {.time = 0.1, .wound_area = 4.0, .mean_shape = 1.0 / 3.0, .perimeter = 8.0, .ring_size = 63, .parts = 1, .energy = -2.5},
+    {.time = 0.6, .wound_area = 5.0, .parts = 1},
+    {.time = 1.1}};
+
+}  // namespace
+
+TEST_CASE("wound.csv has a header, full precision and empty fields for what is unknown", "[unit]") {
+  const auto rows = table(to_csv(samples, scales));
+  REQUIRE(rows.size() == 4);
+  CHECK(rows[0] == std::vector<std::string>{"time", "time_min", "wound_area", "wound_area_um2", "wound_area_fraction",
+                                            "mean_shape", "perimeter", "perimeter_um", "ring_size", "parts",
+                                            "shortest_segment", "energy"});
+  for (const auto& row : rows) CHECK(row.size() == rows[0].size());
+  CHECK(rows[1][0] == "0.1");
+  CHECK(rows[1][1] == "0.025");
+  CHECK(rows[1][3] == "100");
+  CHECK(rows[1][4] == "0.8");
+  CHECK(std::strtod(rows[1][5].c_str(), nullptr) == 1.0 / 3.0);
+  CHECK(rows[1][7] == "40");
+  CHECK(rows[1][8] == "63");
+  CHECK(rows[2][4] == "1");
+  CHECK(rows[2][5].empty());
+  CHECK(rows[3][2].empty());
+  CHECK(rows[3][4].empty());
+}
+
+TEST_CASE("wound.csv can be checked", "[unit]") {
+  const ScratchFolder folder;
+  const auto path = folder / "wound.csv";
+  write_wound_csv(samples, scales, path);
+  CHECK(check_file(path).verdict == FileVerdict::valid);
+  CHECK(check_file(path).content == "wound table: 3 samples");
+  const std::string good = read_bytes(path);
+  write_bytes(path, good + good.substr(good.find("0.1,")));
+  CHECK(check_file(path).problems == std::vector<std::string>{"line 5: time does not increase"});
+  write_bytes(path, good + "2,nan,,,,,,,0,0,0,0\n");
+  CHECK(check_file(path).verdict == FileVerdict::invalid);
+  write_bytes(path, good + "2,1\n");
+  CHECK(check_file(path).verdict == FileVerdict::invalid);
+  write_bytes(path, "a,b\n1,2\n");
+  CHECK(check_file(path).verdict == FileVerdict::unreadable);
+}
