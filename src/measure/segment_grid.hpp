@@ -61,7 +61,7 @@ class SegmentGrid {
   std::vector<Box> boxes_;
   std::vector<double> arc_, perimeter_;
   std::vector<int> start_, sorted_, entry_segment_, entry_bucket_;
-  double x_low_ = 0.0, y_low_ = 0.0, bucket_ = 1.0, inverse_bucket_ = 1.0, width_ = 0.0, height_ = 0.0;
+  double x_low_ = 0.0, y_low_ = 0.0, bucket_ = 1.0, inverse_bucket_ = 1.0;
   int columns_ = 1, rows_ = 1;
 };
 

@@ -30,7 +30,7 @@ struct Exposure {
 };
 
 /// Reusable workspace: no allocation once it has seen a tissue of the same size. The result is a pure function of
-/// (tissue, state); about 25 us for 45 cells of 30 vertices.
+/// (tissue, state); about 60 us for 45 cells of 30 vertices.
 class ExposureMeasure {
  public:
   /// Throws InputError unless the membrane has a positive contact distance.

@@ -29,7 +29,7 @@ struct BoundaryLoop {
   bool is_hole() const { return signed_area < 0.0; }
 };
 
-/// Reusable workspace. The result is a pure function of (tissue, state); about 150 us for 45 cells of 30 vertices.
+/// Reusable workspace. The result is a pure function of (tissue, state); about 250 us for 45 cells of 30 vertices.
 class FreeBoundary {
  public:
   explicit FreeBoundary(const Membrane& membrane);

@@ -29,6 +29,6 @@ bool contains(std::span<const Point> polygon, Point point);
 /// Squared distance from a point to the closed outline (not zero inside).
 double squared_distance_to_outline(std::span<const Point> polygon, Point point);
 /// Area common to two simple polygons, by `lines` horizontal mid-point scan lines: relative error about 1/lines^1.5.
-double overlap_area(std::span<const Point> a, std::span<const Point> b, int lines = 256);
+double overlap_area(std::span<const Point> a, std::span<const Point> b, int lines = 64);
 
 }  // namespace suture

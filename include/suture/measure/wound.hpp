@@ -43,7 +43,7 @@ enum class WoundStatus {
   open_to_outside, ///< was open, and has broken through the rim of the tissue
 };
 
-/// Follows the wound through a run. About 150 us per update for 45 cells of 30 vertices.
+/// Follows the wound through a run. About 350 us per update for 45 cells of 30 vertices.
 class WoundTracker {
  public:
   /// rule: which vertices Wound::boundary lists.
