@@ -36,16 +36,11 @@ constexpr std::array event_handlings{
     choice("each_step", EventHandling::each_step, "after every integrator step, as the published simulations did"),
 };
 constexpr std::array methods{
-    choice("auto", Method::automatic, "the program chooses and says which it chose"),
-    choice("automatic", Method::automatic),
     choice("cvode", Method::cvode, "implicit BDF of variable order with a minimising Newton solver"),
-    choice("cvode_adams", Method::cvode_adams, "CVODE's Adams formulas for non-stiff problems"),
     choice("rkc2", Method::rkc2, "stabilised explicit Runge-Kutta-Chebyshev of order 2, adaptive"),
     choice("rkc", Method::rkc2),
     choice("euler", Method::euler, "explicit Euler with a fixed step (published simulations)"),
     choice("rk4", Method::rk4, "classical Runge-Kutta of order 4 with a fixed step"),
-    choice("verlet", Method::verlet, "velocity Verlet with a fixed step"),
-    choice("erk", Method::erk, "embedded explicit Runge-Kutta, adaptive"),
 };
 constexpr std::array protocols{
     choice("wound_closure", Protocol::wound_closure, "pack, anneal, ablate, relax and close a wound"),

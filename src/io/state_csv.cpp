@@ -77,13 +77,16 @@ void check_last_cell(const StateTable& table, const Place& place) {
 
 void add_row(StateTable& table, const std::vector<std::string_view>& fields, const std::array<std::size_t, 5>& column,
              const Place& place) {
-  const int cell = parse<int>(fields[column[0]], "cell", place), vertex = parse<int>(fields[column[1]], "vertex", place);
+  const int cell = parse<int>(fields[column[0]], "cell", place),
+            vertex = parse<int>(fields[column[1]], "vertex", place);
   const int cells = static_cast<int>(table.vertex_counts.size());
   const bool next_vertex = cells > 0 && cell == cells - 1 && vertex == table.vertex_counts.back();
   const bool next_cell = cell == cells && vertex == 0;
   if (!next_vertex && !next_cell)
-    place.fail("found cell {}, vertex {} where {}cell {}, vertex 0 was expected; number cells and vertices 0, 1, ... in order",
-               cell, vertex, cells > 0 ? fmt::format("cell {}, vertex {} or ", cells - 1, table.vertex_counts.back()) : "", cells);
+    place.fail(
+        "found cell {}, vertex {} where {}cell {}, vertex 0 was expected; number cells and vertices 0, 1, ... in order",
+        cell, vertex, cells > 0 ? fmt::format("cell {}, vertex {} or ", cells - 1, table.vertex_counts.back()) : "",
+        cells);
   if (next_cell) {
     if (cells > 0) check_last_cell(table, place);
     table.vertex_counts.push_back(0);
@@ -92,7 +95,8 @@ void add_row(StateTable& table, const std::vector<std::string_view>& fields, con
   table.x.push_back(parse<double>(fields[column[2]], "x", place));
   table.y.push_back(parse<double>(fields[column[3]], "y", place));
   table.rest_length.push_back(parse<double>(fields[column[4]], "l0", place));
-  if (!(table.rest_length.back() > 0.0)) place.fail("column l0: the rest length {} is not positive", table.rest_length.back());
+  if (!(table.rest_length.back() > 0.0))
+    place.fail("column l0: the rest length {} is not positive", table.rest_length.back());
 }
 
 /// Runs write(file) and reports a file that could not be written completely.
@@ -136,7 +140,8 @@ TissueState make_state(const StateTable& table, const Config& config) {
   Config per_cell = config;
   per_cell.tissue.cells = cells;
   per_cell.cell_types.clear();
-  for (const CellType& type : config.cell_types) per_cell.cell_types.insert(per_cell.cell_types.end(), type.cells, type);
+  for (const CellType& type : config.cell_types)
+    per_cell.cell_types.insert(per_cell.cell_types.end(), type.cells, type);
   if (static_cast<int>(per_cell.cell_types.size()) > cells)
     throw InputError(fmt::format("[[cell_type]] tables ask for {} cells, but the configuration has {}",
                                  per_cell.cell_types.size(), cells));

@@ -11,7 +11,8 @@ namespace {
 /// a_i/a0_i - 1.
 double strain(const Tissue& tissue, int cell, const StateView& state) {
   const int first = tissue.first_vertex(cell), count = tissue.vertex_count(cell);
-  return signed_area(state.x.subspan(first, count), state.y.subspan(first, count)) / tissue.material(cell).rest_area - 1.0;
+  return signed_area(state.x.subspan(first, count), state.y.subspan(first, count)) / tissue.material(cell).rest_area -
+         1.0;
 }
 
 /// Gradient of the area of the vertex's cell.
@@ -54,7 +55,8 @@ void AreaElasticity::add_hessian(double, const StateView& state, HessianSink& si
       gx.push_back(g.x), gy.push_back(g.y);
       sink.add_block(v, tissue_.next(v), {0.0, 0.5 * slope, -0.5 * slope, 0.0});
     }
-    sink.add_rank_one(tissue_.first_vertex(cell), material.area_stiffness / (material.rest_area * material.rest_area), gx, gy);
+    sink.add_rank_one(tissue_.first_vertex(cell), material.area_stiffness / (material.rest_area * material.rest_area),
+                      gx, gy);
   }
 }
 

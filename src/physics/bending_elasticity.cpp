@@ -17,7 +17,8 @@ struct Corner {
 
 Corner corner(const Tissue& tissue, int vertex, const StateView& state) {
   const int previous = tissue.previous(vertex), next = tissue.next(vertex);
-  const Point a = point_at(state, vertex) - point_at(state, previous), b = point_at(state, next) - point_at(state, vertex);
+  const Point a = point_at(state, vertex) - point_at(state, previous),
+              b = point_at(state, next) - point_at(state, vertex);
   return {{previous, vertex, next}, a, b, std::atan2(cross(a, b), dot(a, b))};
 }
 
@@ -39,7 +40,9 @@ std::array<Point, 3> angle_gradient(const Corner& c) {
 
 Block sum(const Block& a, const Block& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}; }
 
-Block outer(double factor, Point a, Point b) { return {factor * a.x * b.x, factor * a.x * b.y, factor * a.y * b.x, factor * a.y * b.y}; }
+Block outer(double factor, Point a, Point b) {
+  return {factor * a.x * b.x, factor * a.x * b.y, factor * a.y * b.x, factor * a.y * b.y};
+}
 
 }  // namespace
 
@@ -72,7 +75,8 @@ void BendingElasticity::add_hessian(double, const StateView& state, HessianSink&
     const Corner c = corner(tissue_, v, state);
     const double stiffness = tissue_.material(tissue_.cell_of(v)).bending_stiffness;
     const std::array<Point, 3> g = angle_gradient(c);
-    const Block in = polar_hessian(c.incoming, -stiffness * c.angle), out = polar_hessian(c.outgoing, stiffness * c.angle);
+    const Block in = polar_hessian(c.incoming, -stiffness * c.angle),
+                out = polar_hessian(c.outgoing, stiffness * c.angle);
     const auto [previous, here, next] = c.vertex;
     const auto minus = [](const Block& b) { return Block{-b[0], -b[1], -b[2], -b[3]}; };
     sink.add_block(previous, previous, sum(outer(stiffness, g[0], g[0]), in));

@@ -15,7 +15,8 @@ void Confinement::for_each_pressed(const StateView& state, Visit&& visit) const 
     const Point arm = point_at(state, v) - Point{center_x_, center_y_};
     const double r = norm(arm), depth = 1.0 - (radius_ - r) / range_;
     if (!(depth > 0.0)) continue;
-    if (r == 0.0) throw NumericalError(fmt::format("point {} lies exactly at the centre of a wall smaller than its range", v));
+    if (r == 0.0)
+      throw NumericalError(fmt::format("point {} lies exactly at the centre of a wall smaller than its range", v));
     visit(v, (1.0 / r) * arm, r, depth);
   }
 }
@@ -43,8 +44,7 @@ void Confinement::add_gradient(double, const StateView& state, MutableStateView 
 
 void Confinement::add_hessian(double, const StateView& state, HessianSink& sink) const {
   for_each_pressed(state, [&](int v, Point outwards, double r, double depth) {
-    sink.add_block(v, v, radial_block(outwards, r, 2.0 * energy_ * depth / range_,
-                                      2.0 * energy_ / (range_ * range_)));
+    sink.add_block(v, v, radial_block(outwards, r, 2.0 * energy_ * depth / range_, 2.0 * energy_ / (range_ * range_)));
   });
 }
 

@@ -7,7 +7,8 @@
 namespace suture {
 
 ConstantLoad::ConstantLoad(std::vector<double> fx, std::vector<double> fy) : fx_(std::move(fx)), fy_(std::move(fy)) {
-  if (fx_.size() != fy_.size()) throw InputError(fmt::format("a load has {} x but {} y components", fx_.size(), fy_.size()));
+  if (fx_.size() != fy_.size())
+    throw InputError(fmt::format("a load has {} x but {} y components", fx_.size(), fy_.size()));
 }
 
 double ConstantLoad::energy(double, const StateView& state) const {

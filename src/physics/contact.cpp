@@ -64,8 +64,8 @@ struct VertexContact {
 
 /// Calls on_segment(SegmentContact) and on_vertex(VertexContact) for everything closer than `reach`.
 template <class OnSegment, class OnVertex>
-void for_each_contact(const Tissue& tissue, const StateView& state, double reach, PairSearch search, OnSegment&& on_segment,
-                      OnVertex&& on_vertex) {
+void for_each_contact(const Tissue& tissue, const StateView& state, double reach, PairSearch search,
+                      OnSegment&& on_segment, OnVertex&& on_vertex) {
   require_nonzero_segments(tissue, state);
   for_each_candidate(tissue, state, reach, search, [&](int vertex, int cell) {
     const int first = tissue.first_vertex(cell), count = tissue.vertex_count(cell);
@@ -78,8 +78,12 @@ void for_each_contact(const Tissue& tissue, const StateView& state, double reach
       if (distance >= reach) return;
       if (distance == 0.0) fail_zero_distance(tissue, vertex, start);
       const Point tangent = (1.0 / length) * edge;
-      on_segment(SegmentContact{{vertex, start, end}, {1.0, t - 1.0, -t}, (height > 0.0 ? 1.0 : -1.0) * left_normal(tangent),
-                                tangent, distance, length});
+      on_segment(SegmentContact{{vertex, start, end},
+                                {1.0, t - 1.0, -t},
+                                (height > 0.0 ? 1.0 : -1.0) * left_normal(tangent),
+                                tangent,
+                                distance,
+                                length});
     };
     const auto at_vertex = [&](int k, int weight) {
       const Point separation = p - point_at(state, first + k);
@@ -100,11 +104,13 @@ void add_segment_hessian(const SegmentContact& c, double first, double second, H
   const Point n = c.normal, tau = c.tangent;
   for (int p = 0; p < 3; ++p)
     for (int q = p; q < 3; ++q) {
-      const double nn = second * c.weight[p] * c.weight[q] - first * c.distance / (c.length * c.length) * turn[p] * turn[q];
+      const double nn =
+          second * c.weight[p] * c.weight[q] - first * c.distance / (c.length * c.length) * turn[p] * turn[q];
       const double nt = -first / c.length * turn[p] * c.weight[q], tn = -first / c.length * c.weight[p] * turn[q];
-      sink.add_block(c.vertex[p], c.vertex[q],
-                     {nn * n.x * n.x + nt * n.x * tau.x + tn * tau.x * n.x, nn * n.x * n.y + nt * n.x * tau.y + tn * tau.x * n.y,
-                      nn * n.y * n.x + nt * n.y * tau.x + tn * tau.y * n.x, nn * n.y * n.y + nt * n.y * tau.y + tn * tau.y * n.y});
+      sink.add_block(
+          c.vertex[p], c.vertex[q],
+          {nn * n.x * n.x + nt * n.x * tau.x + tn * tau.x * n.x, nn * n.x * n.y + nt * n.x * tau.y + tn * tau.x * n.y,
+           nn * n.y * n.x + nt * n.y * tau.x + tn * tau.y * n.x, nn * n.y * n.y + nt * n.y * tau.y + tn * tau.y * n.y});
     }
 }
 

@@ -9,8 +9,12 @@
 namespace suture {
 
 ContactLaw::ContactLaw(double energy, double distance, double adhesion, double range)
-    : energy_(energy), distance_(distance), adhesion_(adhesion), range_(range),
-      inner_(distance * (1.0 + adhesion)), outer_(distance * (1.0 + range)) {
+    : energy_(energy),
+      distance_(distance),
+      adhesion_(adhesion),
+      range_(range),
+      inner_(distance * (1.0 + adhesion)),
+      outer_(distance * (1.0 + range)) {
   if (!(energy >= 0.0 && std::isfinite(energy)))
     throw InputError(fmt::format("contact.energy is {}; it must be zero or positive", energy));
   if (!(distance > 0.0 && std::isfinite(distance)))
@@ -20,7 +24,8 @@ ContactLaw::ContactLaw(double energy, double distance, double adhesion, double r
   if (!(range >= 0.0 && std::isfinite(range)))
     throw InputError(fmt::format("contact.range is {}; it must be zero or positive", range));
   if (adhesion > 0.0 && !(adhesion < range))
-    throw InputError(fmt::format("contact.adhesion is {}, but it must be smaller than contact.range, which is {}", adhesion, range));
+    throw InputError(
+        fmt::format("contact.adhesion is {}, but it must be smaller than contact.range, which is {}", adhesion, range));
   if (adhesion > 0.0) tail_ = energy * adhesion / (range - adhesion);
 }
 
@@ -45,7 +50,8 @@ double ContactLaw::second_derivative(double d) const {
 }
 
 ContactLaw make_contact_law(const Tissue& tissue, const ContactParameters& parameters) {
-  return {parameters.energy, parameters.distance.value_or(tissue.mean_initial_rest_length()), parameters.adhesion, parameters.range};
+  return {parameters.energy, parameters.distance.value_or(tissue.mean_initial_rest_length()), parameters.adhesion,
+          parameters.range};
 }
 
 }  // namespace suture

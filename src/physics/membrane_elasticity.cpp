@@ -8,7 +8,8 @@
 
 namespace suture {
 
-SpringResponse spring_response(SpringLaw law, double stiffness, double length, double rest_length, double initial_rest_length) {
+SpringResponse spring_response(SpringLaw law, double stiffness, double length, double rest_length,
+                               double initial_rest_length) {
   const double unit = law == SpringLaw::relative ? rest_length : initial_rest_length;
   const double strain = (length - rest_length) / unit;
   return {0.5 * stiffness * strain * strain, stiffness * strain / unit, stiffness / (unit * unit)};
@@ -27,7 +28,8 @@ MembraneElasticity::Spring MembraneElasticity::spring(int segment, const StateVi
   const double length = norm(edge), rest_length = state.rest_length[segment];
   if (length == 0.0) fail_zero_length(tissue_, segment);
   if (law_ == SpringLaw::relative && rest_length == 0.0)
-    throw NumericalError(fmt::format("{}: the rest length of the segment to the next vertex is zero", tissue_.vertex_name(segment)));
+    throw NumericalError(
+        fmt::format("{}: the rest length of the segment to the next vertex is zero", tissue_.vertex_name(segment)));
   return {next, length, (1.0 / length) * edge,
           spring_response(law_, tissue_.material(tissue_.cell_of(segment)).membrane_stiffness, length, rest_length,
                           tissue_.initial_rest_length(segment))};

@@ -7,13 +7,14 @@
 namespace suture {
 
 void fail_zero_length(const Tissue& tissue, int segment) {
-  throw NumericalError(
-      fmt::format("{}: the segment to the next vertex has length zero, so it has no direction", tissue.vertex_name(segment)));
+  throw NumericalError(fmt::format("{}: the segment to the next vertex has length zero, so it has no direction",
+                                   tissue.vertex_name(segment)));
 }
 
 void fail_zero_distance(const Tissue& tissue, int vertex, int other) {
-  throw NumericalError(fmt::format("{} lies exactly on {} or on the segment that starts there: the contact force has no direction",
-                                   tissue.vertex_name(vertex), tissue.vertex_name(other)));
+  throw NumericalError(
+      fmt::format("{} lies exactly on {} or on the segment that starts there: the contact force has no direction",
+                  tissue.vertex_name(vertex), tissue.vertex_name(other)));
 }
 
 void require_nonzero_segments(const Tissue& tissue, const StateView& state) {

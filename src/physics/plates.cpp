@@ -21,14 +21,18 @@ void for_each_pressed(const ParallelPlates& plates, int vertices, const StateVie
 }  // namespace
 
 Plates::Plates(const ParallelPlates& plates, int vertices) : plates_(plates), vertices_(vertices) {
-  if (!(plates.gap > 0.0)) throw InputError(fmt::format("the gap between the plates is {}; it must be positive", plates.gap));
-  if (!(plates.range > 0.0)) throw InputError(fmt::format("the range of the plates is {}; it must be positive", plates.range));
-  if (!(plates.energy >= 0.0)) throw InputError(fmt::format("the energy of the plates is {}; it must not be negative", plates.energy));
+  if (!(plates.gap > 0.0))
+    throw InputError(fmt::format("the gap between the plates is {}; it must be positive", plates.gap));
+  if (!(plates.range > 0.0))
+    throw InputError(fmt::format("the range of the plates is {}; it must be positive", plates.range));
+  if (!(plates.energy >= 0.0))
+    throw InputError(fmt::format("the energy of the plates is {}; it must not be negative", plates.energy));
 }
 
 double Plates::energy(double, const StateView& state) const {
   double sum = 0.0;
-  for_each_pressed(plates_, vertices_, state, [&](int, double, double depth) { sum += plates_.energy * depth * depth; });
+  for_each_pressed(plates_, vertices_, state,
+                   [&](int, double, double depth) { sum += plates_.energy * depth * depth; });
   return sum;
 }
 
@@ -40,7 +44,9 @@ void Plates::add_gradient(double, const StateView& state, MutableStateView gradi
 
 void Plates::add_hessian(double, const StateView& state, HessianSink& sink) const {
   const double stiffness = 2.0 * plates_.energy / (plates_.range * plates_.range);
-  for_each_pressed(plates_, vertices_, state, [&](int v, double, double) { sink.add_block(v, v, {0.0, 0.0, 0.0, stiffness}); });
+  for_each_pressed(plates_, vertices_, state, [&](int v, double, double) {
+    sink.add_block(v, v, {0.0, 0.0, 0.0, stiffness});
+  });
 }
 
 }  // namespace suture

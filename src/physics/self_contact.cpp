@@ -31,7 +31,8 @@ SelfContact::SelfContact(const Tissue& tissue, const ContactParameters& paramete
 
 double SelfContact::energy(double, const StateView& state) const {
   double sum = 0.0;
-  for_each_close_pair(tissue_, state, law_.reach(), [&](int, int, Point, double distance) { sum += law_.value(distance); });
+  for_each_close_pair(tissue_, state, law_.reach(),
+                      [&](int, int, Point, double distance) { sum += law_.value(distance); });
   return sum;
 }
 
@@ -47,7 +48,8 @@ void SelfContact::add_gradient(double, const StateView& state, MutableStateView 
 
 void SelfContact::add_hessian(double, const StateView& state, HessianSink& sink) const {
   for_each_close_pair(tissue_, state, law_.reach(), [&](int a, int b, Point normal, double distance) {
-    add_pair(sink, a, b, radial_block(normal, distance, law_.first_derivative(distance), law_.second_derivative(distance)));
+    add_pair(sink, a, b,
+             radial_block(normal, distance, law_.first_derivative(distance), law_.second_derivative(distance)));
   });
 }
 

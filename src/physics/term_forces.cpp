@@ -25,7 +25,8 @@ std::vector<TermForces> evaluate_forces(const TissueState& state, const Config& 
     const std::string name = printed_name(*term);
     auto found = std::find_if(all.begin(), all.end(), [&](const TermForces& forces) { return forces.term == name; });
     if (found == all.end())
-      found = all.insert(all.end(), {name, 0.0, std::vector<double>(layout.points()), std::vector<double>(layout.points())});
+      found = all.insert(all.end(),
+                         {name, 0.0, std::vector<double>(layout.points()), std::vector<double>(layout.points())});
     found->energy += term->energy(state.time, state.view());
     for (int i = 0; i < layout.points(); ++i) {
       found->fx[i] -= view.x[i];

@@ -27,7 +27,8 @@ class AssemblySink final : public HessianSink {
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j)
         add(first + i, first + j,
-            {coefficient * gx[i] * gx[j], coefficient * gx[i] * gy[j], coefficient * gy[i] * gx[j], coefficient * gy[i] * gy[j]});
+            {coefficient * gx[i] * gx[j], coefficient * gx[i] * gy[j], coefficient * gy[i] * gx[j],
+             coefficient * gy[i] * gy[j]});
   }
 
   Eigen::SparseMatrix<double> matrix() const {
@@ -51,7 +52,8 @@ class AssemblySink final : public HessianSink {
 }  // namespace
 
 TermList make_cell_terms(const Tissue& tissue, const Config& config) {
-  TermList terms{std::make_shared<AreaElasticity>(tissue), std::make_shared<MembraneElasticity>(tissue, config.membrane.law),
+  TermList terms{std::make_shared<AreaElasticity>(tissue),
+                 std::make_shared<MembraneElasticity>(tissue, config.membrane.law),
                  std::make_shared<BendingElasticity>(tissue), std::make_shared<Contact>(tissue, config.contact)};
   if (config.contact.self_contact) terms.push_back(std::make_shared<SelfContact>(tissue, config.contact));
   return terms;
@@ -61,7 +63,8 @@ std::vector<std::pair<std::string, double>> energy_by_term(const TermList& terms
   std::vector<std::pair<std::string, double>> energies;
   for (const auto& term : terms) {
     const double energy = term->energy(t, state);
-    const auto found = std::find_if(energies.begin(), energies.end(), [&](const auto& entry) { return entry.first == term->name(); });
+    const auto found =
+        std::find_if(energies.begin(), energies.end(), [&](const auto& entry) { return entry.first == term->name(); });
     if (found == energies.end())
       energies.emplace_back(term->name(), energy);
     else

@@ -1,6 +1,5 @@
 // Every term against the published implementation of the model, on the configurations of data/reference_forces.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -81,7 +80,7 @@ TEST_CASE("the forces and energies of the published implementation are reproduce
 }
 
 TEST_CASE("the defaults of a tissue with the reference's shape are the reference's contact law", "[validation]") {
-  const TissueState state =
-      make_state(read_state_csv((std::filesystem::path(SUTURE_SOURCE_DIR) / "tests/data/perturbed_large.csv").string()), Config{});
+  const TissueState state = make_state(
+      read_state_csv((std::filesystem::path(SUTURE_SOURCE_DIR) / "tests/data/perturbed_large.csv").string()), Config{});
   CHECK(state.tissue.mean_initial_rest_length() == Approx(0.12967913341208).epsilon(1e-13));
 }

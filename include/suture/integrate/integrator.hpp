@@ -34,6 +34,7 @@ struct IntegratorOptions {
   double time_step = 0.0;              ///< fixed-step methods
   double initial_step = 0.0;           ///< 0: chosen
   double maximum_step = 0.0;           ///< 0: none
+  double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
   int maximum_order = 5;
 };
 
@@ -51,6 +52,9 @@ class Integrator {
   virtual void interpolate(double t, std::span<double> y) const = 0;
   virtual Statistics statistics() const = 0;
 };
+
+/// What [integrator] asks for, in model units; `rest_length` is the mean l0(0) its tolerances refer to.
+IntegratorOptions integrator_options(const Config& config, double rest_length);
 
 /// Creates the integrator `options.method` names, started at (t, y). The system must outlive it.
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const IntegratorOptions& options, double t,

@@ -43,12 +43,12 @@ struct FrameExtras {
 };
 
 /// A discrete event of the hybrid system: "yield", "capture", "slip", "exchange", "closure", ... (at most 31 letters).
-struct EventRecord {
+struct StoredEvent {
   double time = 0.0;
   std::string kind;
   std::optional<int> cell;
   std::optional<int> vertex;  ///< cell vertex, counted through the tissue
-  friend bool operator==(const EventRecord&, const EventRecord&) = default;
+  friend bool operator==(const StoredEvent&, const StoredEvent&) = default;
 };
 
 class TrajectoryWriter {
@@ -64,7 +64,7 @@ class TrajectoryWriter {
   void write_frame(const TissueState& state, const FrameExtras& extras = {});
   /// Appends one value to the series /observables/<quantity.name>.
   void record(const Quantity& quantity, double time, double value);
-  void record(const EventRecord& event);
+  void record(const StoredEvent& event);
   /// Counters and results of the run, into /solver and /summary. A later call replaces an earlier one.
   void write_summary(const RunSummary& summary);
 
@@ -99,7 +99,7 @@ struct Trajectory {
   std::vector<TrajectoryFrame> frames;
   std::map<Stage, TissueState> stages;
   std::vector<Series> observables;
-  std::vector<EventRecord> events;
+  std::vector<StoredEvent> events;
   std::string summary;  ///< JSON text of the run's summary; empty if none was written
 
   TissueState state(int frame) const;

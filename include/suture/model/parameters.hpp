@@ -39,7 +39,7 @@ enum class EventHandling {
   each_step,  ///< after every step of the integrator (published simulations)
 };
 
-enum class Method { automatic, cvode, cvode_adams, rkc2, euler, rk4, verlet, erk };
+enum class Method { cvode, rkc2, euler, rk4 };
 
 /// What a run does.
 enum class Protocol {
@@ -122,6 +122,7 @@ struct PackingParameters {
   double adhesion = 0.0;           ///< l1 while compressing
   double area_stiffness = 2.0;     ///< k_a while compressing
   double bending_stiffness = 0.0;  ///< k_b while compressing
+  double shape_noise = 0.01;       ///< random radial displacement of the first polygons' corners, relative
   double wall_energy = 1.0;        ///< e_cb
   double wall_range = 0.5;         ///< sigma, in units of s
   double force_tolerance = 1e-6;   ///< largest force component after FIRE

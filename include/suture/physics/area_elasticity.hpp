@@ -2,7 +2,7 @@
 //
 //     U = sum_i k_a/2 (a_i/a0_i - 1)^2,   a_i = 1/2 sum_v (x_v y_{v+1} - x_{v+1} y_v)
 //
-// Units: energy epsilon, k_a in epsilon, areas in a0. Source: Ton et al. 2023, Eq. 1, first term. Smooth everywhere.
+// Units: energy epsilon, k_a in epsilon, areas in a0. Source: Ton et al. 2023, Eq. 1. Smooth everywhere.
 // The area is a quadratic form, so its second derivative is constant and
 //     d2U = k_a/a0^2 (grad a)(grad a)^T + k_a/a0 (a/a0 - 1) d2a.
 #pragma once

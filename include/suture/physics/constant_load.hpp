@@ -12,7 +12,8 @@ namespace suture {
 
 class ConstantLoad final : public EnergyTerm {
  public:
-  /// fx, fy: force on points 0, 1, ...; points beyond their length feel none. Throws InputError when their lengths differ.
+  /// fx, fy: force on points 0, 1, ...; points beyond their length feel none. Throws InputError when their lengths
+  /// differ.
   ConstantLoad(std::vector<double> fx, std::vector<double> fy);
 
   std::string_view name() const override { return "load"; }

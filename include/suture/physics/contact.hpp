@@ -3,7 +3,7 @@
 //     U = sum_{vertex P} sum_{cell j != cell(P)} U(P, chain_j)      with u(d) of contact_law.hpp
 //
 // U(P, chain) is the inclusion-exclusion sum of contact_geometry.hpp. Units: energy epsilon, lengths in sqrt(a0).
-// Source: Ton et al. 2023, Eq. 2-3 and supplement section II; model.md section 3.
+// Source: Ton et al. 2023, supplement section II; model.md section 3.
 // C1 wherever no distance is zero; the second derivative jumps where a distance crosses s (1 + l1) or s (1 + l2) and
 // where a vertex passes the end of a segment. A segment's term has no force along the segment.
 #pragma once

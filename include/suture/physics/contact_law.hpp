@@ -5,7 +5,8 @@
 //     u(d) = 0                                                otherwise
 //
 // Units: energy epsilon; d, s in sqrt(a0); l1, l2 in units of s. l1 = 0 is pure repulsion: the tail vanishes.
-// Source: Ton et al. 2023, Eq. 2-3; prefactor and range as in the published simulations (model.md sections 3 and 9).
+// Source: the pair potential of Ton et al. 2023 (supplement, Fig. S1), with prefactor and range as in the published
+// simulations (model.md sections 3 and 9).
 // u is C1; its second derivative jumps at d = s (1 + l1) and d = s (1 + l2) (at d = s when l1 = 0).
 #pragma once
 
@@ -32,8 +33,8 @@ class ContactLaw {
 
  private:
   double energy_, distance_, adhesion_, range_;
-  double inner_, outer_;    ///< s (1 + l1), s (1 + l2)
-  double tail_ = 0.0;       ///< e l1/(l2 - l1)
+  double inner_, outer_;  ///< s (1 + l1), s (1 + l2)
+  double tail_ = 0.0;     ///< e l1/(l2 - l1)
 };
 
 /// The law of [contact]; an unset contact distance is the tissue's mean initial rest length. Throws InputError.

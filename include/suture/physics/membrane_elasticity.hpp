@@ -1,9 +1,10 @@
 // Membrane elasticity: every segment is a spring of length l and current rest length l0.
 //
-//     relative:   U = sum k_l/2 (l/l0 - 1)^2          strain relative to the current rest length (published simulations)
-//     quadratic:  U = sum k_l/2 ((l - l0)/l0(0))^2    constant spring constant k_l/l0(0)^2 (printed equation)
+//     relative:   U = sum k_l/2 (l/l0 - 1)^2          strain relative to the current rest length
+//     quadratic:  U = sum k_l/2 ((l - l0)/l0(0))^2    constant spring constant k_l/l0(0)^2
 //
-// Units: energy epsilon, k_l in epsilon, lengths in sqrt(a0). Source: Ton et al. 2023, Eq. 1, second term; model.md
+// The published simulations use the first, the printed equation is the second.
+// Units: energy epsilon, k_l in epsilon, lengths in sqrt(a0). Source: Ton et al. 2023, Eq. 1; model.md
 // section 3. Smooth except at l = 0, which is reported. Derivatives are with respect to positions at fixed l0.
 #pragma once
 
@@ -17,7 +18,8 @@ struct SpringResponse {
 };
 
 /// initial_rest_length: l0(0), read by the quadratic law only. All lengths positive.
-SpringResponse spring_response(SpringLaw law, double stiffness, double length, double rest_length, double initial_rest_length);
+SpringResponse spring_response(SpringLaw law, double stiffness, double length, double rest_length,
+                               double initial_rest_length);
 
 class MembraneElasticity final : public EnergyTerm {
  public:

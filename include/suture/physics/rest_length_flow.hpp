@@ -18,10 +18,11 @@ inline double rest_length_rate(double rest_length, double length, double referen
   return -((rest_length - length) + memory * (length - reference)) / tau;
 }
 
-/// The rest length that solves l0 - psi = gamma dl0/dt at length `length`: the exact elimination of the rest lengths from
-/// an implicit step,
+/// The rest length that solves l0 - psi = gamma dl0/dt at length `length`: the exact elimination of the rest lengths
+/// from an implicit step,
 ///     l0 = [ psi + (gamma/tau) ((1 - xi) l + xi l0_ref) ] / (1 + gamma/tau).
-inline double implicit_rest_length(double psi, double gamma, double length, double reference, double tau, double memory) {
+inline double implicit_rest_length(double psi, double gamma, double length, double reference, double tau,
+                                   double memory) {
   const double ratio = gamma / tau;
   return (psi + ratio * ((1.0 - memory) * length + memory * reference)) / (1.0 + ratio);
 }

@@ -13,8 +13,8 @@ namespace suture {
 
 using TermList = std::vector<std::shared_ptr<const EnergyTerm>>;
 
-/// The terms of the cells that [area], [membrane], [bending] and [contact] ask for: area, membrane, bending, contact and,
-/// unless contact.self_contact is off, self_contact. Throws InputError.
+/// The terms of the cells that [area], [membrane], [bending] and [contact] ask for: area, membrane, bending, contact
+/// and, unless contact.self_contact is off, self_contact. Throws InputError.
 TermList make_cell_terms(const Tissue& tissue, const Config& config);
 
 /// Energy of every term, in the order of the list; equal names are added up.

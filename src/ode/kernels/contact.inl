@@ -39,8 +39,14 @@ inline WindowState classify(const Shell& s, const ContactScalars& c, const Windo
 
 void contact_gradient(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                       const SelfPair* pairs, std::size_t pair_count) {
+  Double8 sum_x{}, sum_y{};  // of the windows of one vertex, which follow one another
   for (std::size_t k = 0; k < window_count; ++k) {
     const Window& w = windows[k];
+    if (k > 0 && w.p != windows[k - 1].p) {
+      s.gx[windows[k - 1].p] += sum(sum_x);
+      s.gy[windows[k - 1].p] += sum(sum_y);
+      sum_x = sum_y = Double8{};
+    }
     const WindowState v = classify(s, c, w, s.x[w.p], s.y[w.p]);
     const Mask8 live = v.segment | v.point;
     if (!any(live)) continue;
@@ -57,10 +63,14 @@ void contact_gradient(const Shell& s, const ContactScalars& c, const Window* win
       const Double8 hx = g * v.dx, hy = g * v.dy;
       fx += hx, fy += hy, on_x += hx, on_y += hy;
     }
-    s.gx[w.p] += sum(fx);
-    s.gy[w.p] += sum(fy);
+    sum_x += fx;
+    sum_y += fy;
     store(s.gx + w.q, load(s.gx + w.q) - (on_x + shift_up(ahead_x)));
     store(s.gy + w.q, load(s.gy + w.q) - (on_y + shift_up(ahead_y)));
+  }
+  if (window_count > 0) {
+    s.gx[windows[window_count - 1].p] += sum(sum_x);
+    s.gy[windows[window_count - 1].p] += sum(sum_y);
   }
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];

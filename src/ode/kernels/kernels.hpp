@@ -98,6 +98,12 @@ struct Table {
   /// rhs: (row, x or y, lane); overwritten by the solution.
   void (*cyclic_solve1)(const CyclicBatch&, double* rhs);
   void (*cyclic_solve8)(const CyclicBatch&, double* rhs);
+  // Vectors: n is a multiple of 8 (zero-padded).
+  double (*weighted_square_sum)(std::size_t n, const double* x, const double* w);  ///< sum (x w)^2
+  double (*dot)(std::size_t n, const double* x, const double* y);
+  void (*linear_sum)(std::size_t n, double a, const double* x, double b, const double* y, double* z);
+  void (*linear_combination)(std::size_t n, int count, const double* c, const double* const* x, double* z);
+  void (*scale_add_multi)(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z);
 };
 
 extern const Table baseline;

@@ -8,6 +8,7 @@ using namespace suture::kernels;
 #include "ode/kernels/contact.inl"
 #include "ode/kernels/cyclic.inl"
 #include "ode/kernels/shell.inl"
+#include "ode/kernels/vectors.inl"
 
 }  // namespace
 
@@ -15,6 +16,7 @@ namespace suture::kernels {
 
 const Table avx2{"avx2",           shell_gradient,    shell_linearise, shell_product,
                     contact_gradient, contact_linearise, contact_product, near_segments,
-                    cyclic_factor1,   cyclic_factor8,    cyclic_solve1,   cyclic_solve8};
+                    cyclic_factor1,   cyclic_factor8,    cyclic_solve1,   cyclic_solve8,
+                    weighted_square_sum, dot, linear_sum, linear_combination, scale_add_multi};
 
 }  // namespace suture::kernels

@@ -50,7 +50,11 @@ inline unsigned bits(Mask8 m) {
 inline bool any(Mask8 m) { return bits(m) != 0; }
 
 /// Sum in one fixed order, the same for every instruction set.
-inline double sum(Double8 a) { return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7])); }
+inline double sum(Double8 a) {
+  a += __builtin_shuffle(a, Mask8{4, 5, 6, 7, 0, 1, 2, 3});
+  a += __builtin_shuffle(a, Mask8{2, 3, 0, 1, 6, 7, 4, 5});
+  return a[0] + a[1];
+}
 
 inline Double8 maximum(Double8 a, Double8 b) { return select(a > b, a, b); }
 

@@ -1,16 +1,15 @@
-#include <catch2/catch.hpp>
-
 #include <bit>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
+#include "support/sample_tissue.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
 #include "suture/io/trajectory_check.hpp"
 #include "suture/version.hpp"
-#include "support/file_bytes.hpp"
-#include "support/program.hpp"
-#include "support/sample_tissue.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -80,12 +79,12 @@ void write_sample(const std::filesystem::path& path) {
   const CellField shape{{"shape_parameter", "1", "p^2/(4 pi a)"}, std::vector<double>(state.tissue.cell_count(), 1.2)};
   writer.write_frame(state, {.cell_fields = {shape}, .wound_outline = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0 / 3.0}}});
   for (int i = 0; i < 3000; ++i) writer.record(wound_area, 0.1 * i, std::exp(-0.001 * i));
-  writer.record(EventRecord{33.5, "yield", 3, 41});
+  writer.record(StoredEvent{33.5, "yield", 3, 41});
   writer.commit();
   packed.time = 40.0;
   packed.reference_rest_length = state.reference_rest_length;
   writer.write_frame(packed);
-  writer.record(EventRecord{33.6, "closure", {}, {}});
+  writer.record(StoredEvent{33.6, "closure", {}, {}});
   state.time = 41.0;
   writer.write_frame(state);
   writer.write_stage(Stage::closure, state);
@@ -130,8 +129,8 @@ TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
   CHECK(series->quantity.unit == "area");
   CHECK(trajectory.observable("nothing") == nullptr);
   REQUIRE(trajectory.events.size() == 2);
-  CHECK(trajectory.events[0] == EventRecord{33.5, "yield", 3, 41});
-  CHECK(trajectory.events[1] == EventRecord{33.6, "closure", {}, {}});
+  CHECK(trajectory.events[0] == StoredEvent{33.5, "yield", 3, 41});
+  CHECK(trajectory.events[1] == StoredEvent{33.6, "closure", {}, {}});
   CHECK_THAT(trajectory.summary, Contains("\"seed\": 8"));
 }
 
@@ -216,7 +215,8 @@ TEST_CASE("files that are not trajectories are refused with the reason", "[unit]
   write_sample(folder.path() / "run.h5");
   std::string bytes = read_bytes(folder.path() / "run.h5");
   write_bytes(folder.path() / "truncated.h5", bytes.substr(0, bytes.size() / 2));
-  CHECK_THROWS_WITH(read_trajectory(folder.path() / "truncated.h5"), Contains("truncated.h5") && Contains("truncated file"));
+  CHECK_THROWS_WITH(read_trajectory(folder.path() / "truncated.h5"),
+                    Contains("truncated.h5") && Contains("truncated file"));
   CHECK(check_file(folder.path() / "truncated.h5").verdict == FileVerdict::unreadable);
 
   const std::size_t schema = bytes.find("suture-trajectory");

@@ -1,0 +1,34 @@
+// The two motions of the protocol without plasticity and without purse string: at constant energy, and overdamped.
+#pragma once
+
+#include <vector>
+
+#include "suture/integrate/integrator.hpp"
+#include "suture/model/state.hpp"
+#include "suture/ode/tissue_ode.hpp"
+#include "suture/physics/term_sum.hpp"
+
+namespace suture {
+
+/// Maxwell velocities of the cell vertices (unit mass; all x, then all y) at `temperature`: no total momentum, no total
+/// angular momentum about the centre of mass, and a kinetic energy of exactly temperature per vertex (kT/2 per
+/// component). Bit-identical for the same seed and positions.
+std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed);
+
+struct EnergyReport {
+  double initial = 0.0;  ///< kinetic plus potential
+  double final = 0.0;
+  double largest_deviation = 0.0;  ///< from `initial`, over the samples
+};
+
+/// Constant-energy motion of unit masses by velocity Verlet (Swope, Andersen, Berens & Wilson 1982), second order in the
+/// step; `duration` is covered in equal steps of at most `time_step`. Updates positions, velocities and time.
+/// energies: the terms `ode` is the gradient of; their sum is sampled about ten times on the way.
+/// Throws NumericalError when the forces cannot be computed.
+EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
+                                     std::vector<double>& velocities, double duration, double time_step);
+
+/// Overdamped motion of elastic cells for `duration`, by the configured integrator.
+Statistics relax_overdamped(const Config& config, TissueState& state, double duration);
+
+}  // namespace suture

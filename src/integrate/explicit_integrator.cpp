@@ -1,0 +1,49 @@
+#include "integrate/explicit_integrator.hpp"
+
+#include <fmt/format.h>
+
+#include "integrate/failure_report.hpp"
+
+namespace suture {
+
+ExplicitIntegrator::ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
+    : system_(&system), options_(options), time_(t), y_(y.begin(), y.end()) {
+  for (auto* v : {&f_, &y_before_, &f_before_, &y_next_, &f_next_}) v->resize(y.size());
+  evaluate_or_fail(t, y_, f_);
+}
+
+Evaluation ExplicitIntegrator::evaluate(double t, std::span<const double> y, std::span<double> out) {
+  ++counts_.rate_evaluations;
+  return system_->rate(t, y, out);
+}
+
+void ExplicitIntegrator::evaluate_or_fail(double t, std::span<const double> y, std::span<double> out) {
+  if (evaluate(t, y, out) != Evaluation::ok) fail("the rate cannot be evaluated", last_step_, {});
+}
+
+void ExplicitIntegrator::accept(double h) {
+  y_before_.swap(y_);
+  f_before_.swap(f_);
+  y_.swap(y_next_);
+  f_.swap(f_next_);
+  time_ += h;
+  last_step_ = h;
+  ++counts_.steps;
+}
+
+void ExplicitIntegrator::interpolate(double t, std::span<double> y) const {
+  const double h = last_step_, s = h > 0.0 ? (t - (time_ - h)) / h : 1.0;
+  const double a = (1.0 + 2.0 * s) * (1.0 - s) * (1.0 - s), b = s * s * (3.0 - 2.0 * s);
+  const double c = h * s * (1.0 - s) * (1.0 - s), d = -h * s * s * (1.0 - s);
+  if (h == 0.0) {
+    std::copy(y_.begin(), y_.end(), y.begin());
+    return;
+  }
+  for (std::size_t k = 0; k < y.size(); ++k) y[k] = a * y_before_[k] + b * y_[k] + c * f_before_[k] + d * f_[k];
+}
+
+void ExplicitIntegrator::fail(const std::string& what, double h, std::span<const double> errors) const {
+  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_));
+}
+
+}  // namespace suture

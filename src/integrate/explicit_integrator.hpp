@@ -1,0 +1,37 @@
+// What the explicit methods share: state and rate at both ends of the last step, and cubic Hermite output between.
+#pragma once
+
+#include <vector>
+
+#include "suture/errors.hpp"
+#include "suture/integrate/integrator.hpp"
+
+namespace suture {
+
+class ExplicitIntegrator : public Integrator {
+ public:
+  ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y);
+
+  double time() const override { return time_; }
+  std::span<const double> state() const override { return y_; }
+  double last_step() const override { return last_step_; }
+  /// Cubic Hermite between the ends of the last step.
+  void interpolate(double t, std::span<double> y) const override;
+  Statistics statistics() const override { return counts_; }
+
+ protected:
+  /// Throws NumericalError when the rate is refused; explicit fixed-step methods cannot retry.
+  void evaluate_or_fail(double t, std::span<const double> y, std::span<double> out);
+  Evaluation evaluate(double t, std::span<const double> y, std::span<double> out);
+  /// Accepts y_next_ (and its rate f_next_) as the state at time() + h.
+  void accept(double h);
+  [[noreturn]] void fail(const std::string& what, double h, std::span<const double> errors) const;
+
+  OdeSystem* system_;
+  IntegratorOptions options_;
+  double time_, last_step_ = 0.0;
+  std::vector<double> y_, f_, y_before_, f_before_, y_next_, f_next_;
+  Statistics counts_;
+};
+
+}  // namespace suture

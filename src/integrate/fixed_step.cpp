@@ -1,0 +1,72 @@
+#include <cmath>
+
+#include "integrate/explicit_integrator.hpp"
+#include "integrate/rivals.hpp"
+
+namespace suture {
+
+namespace {
+
+/// Steps of one size; the step before a limit is shortened to end there.
+class FixedStep : public ExplicitIntegrator {
+ public:
+  using ExplicitIntegrator::ExplicitIntegrator;
+  double step(double limit) final {
+    double h = options_.time_step;
+    const bool last = time_ + h * (1.0 + 1e-9) >= limit;
+    if (last) h = limit - time_;
+    advance(h);
+    evaluate_or_fail(time_ + h, y_next_, f_next_);
+    accept(h);
+    if (last) time_ = limit;
+    return time_;
+  }
+
+ protected:
+  /// Fills y_next_ from y_, f_.
+  virtual void advance(double h) = 0;
+};
+
+class Euler final : public FixedStep {
+ public:
+  using FixedStep::FixedStep;
+  int last_order() const override { return 1; }
+
+ private:
+  void advance(double h) override {
+    for (std::size_t k = 0; k < y_.size(); ++k) y_next_[k] = y_[k] + h * f_[k];
+  }
+};
+
+class RungeKutta4 final : public FixedStep {
+ public:
+  RungeKutta4(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
+      : FixedStep(system, options, t, y), stage_(y.size()), stage_rate_(y.size()) {}
+  int last_order() const override { return 4; }
+
+ private:
+  void advance(double h) override {
+    const double part[3] = {0.5, 0.5, 1.0}, weight[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+    for (std::size_t k = 0; k < y_.size(); ++k) y_next_[k] = y_[k] + weight[0] * h * f_[k];
+    const std::vector<double>* rate = &f_;
+    for (int j = 0; j < 3; ++j) {
+      for (std::size_t k = 0; k < y_.size(); ++k) stage_[k] = y_[k] + part[j] * h * (*rate)[k];
+      evaluate_or_fail(time_ + part[j] * h, stage_, stage_rate_);
+      rate = &stage_rate_;
+      for (std::size_t k = 0; k < y_.size(); ++k) y_next_[k] += weight[j + 1] * h * stage_rate_[k];
+    }
+  }
+  std::vector<double> stage_, stage_rate_;
+};
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_euler(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y) {
+  return std::make_unique<Euler>(system, options, t, y);
+}
+
+std::unique_ptr<Integrator> make_rk4(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y) {
+  return std::make_unique<RungeKutta4>(system, options, t, y);
+}
+
+}  // namespace suture

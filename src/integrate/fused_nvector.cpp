@@ -1,0 +1,101 @@
+#include "integrate/fused_nvector.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ode/aligned_buffer.hpp"
+#include "ode/kernels/kernels.hpp"
+
+namespace suture {
+
+namespace {
+
+struct Content {
+  explicit Content(std::size_t n) : size(n), padded((n + 7) / 8 * 8), buffer(padded), data(buffer.data()) {}
+  std::size_t size, padded;
+  AlignedBuffer buffer;
+  double* data;
+};
+
+const Content& content(N_Vector v) { return *static_cast<const Content*>(v->content); }
+double* data(N_Vector v) { return content(v).data; }
+std::size_t padded(N_Vector v) { return content(v).padded; }
+const kernels::Table& kernel() { return kernels::best(); }
+
+template <class F>
+void each(N_Vector z, F f) {
+  double* out = data(z);
+  for (std::size_t k = 0; k < content(z).size; ++k) out[k] = f(k);
+}
+
+N_Vector clone(N_Vector v) { return make_fused_vector(content(v).size, v->sunctx); }
+
+void destroy(N_Vector v) {
+  delete static_cast<Content*>(v->content);
+  v->content = nullptr;
+  N_VFreeEmpty(v);
+}
+
+void fill_standard_operations(N_Vector_Ops ops) {
+  ops->nvlinearsum = [](double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+    kernel().linear_sum(padded(z), a, data(x), b, data(y), data(z));
+  };
+  ops->nvconst = [](double c, N_Vector z) { std::fill_n(data(z), content(z).size, c); };
+  ops->nvprod = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] * b[k]; }); };
+  ops->nvdiv = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] / b[k]; }); };
+  ops->nvscale = [](double c, N_Vector x, N_Vector z) { each(z, [a = data(x), c](auto k) { return c * a[k]; }); };
+  ops->nvabs = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return std::abs(a[k]); }); };
+  ops->nvinv = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return 1.0 / a[k]; }); };
+  ops->nvaddconst = [](N_Vector x, double b, N_Vector z) { each(z, [a = data(x), b](auto k) { return a[k] + b; }); };
+  ops->nvdotprod = [](N_Vector x, N_Vector y) { return kernel().dot(padded(x), data(x), data(y)); };
+  ops->nvmaxnorm = [](N_Vector x) {
+    double m = 0.0;
+    for (const double a : values(x)) m = std::max(m, std::abs(a));
+    return m;
+  };
+  ops->nvwrmsnorm = [](N_Vector x, N_Vector w) {
+    return std::sqrt(kernel().weighted_square_sum(padded(x), data(x), data(w)) / static_cast<double>(content(x).size));
+  };
+}
+
+constexpr int most_vectors = 16;  // CVODE combines at most 13 (Adams, order 12)
+
+std::array<double*, most_vectors> pointers(int count, N_Vector* x) {
+  std::array<double*, most_vectors> p{};
+  for (int j = 0; j < count; ++j) p[j] = data(x[j]);
+  return p;
+}
+
+void fill_fused_operations(N_Vector_Ops ops) {
+  ops->nvlinearcombination = [](int count, double* c, N_Vector* x, N_Vector z) {
+    if (count > most_vectors) return -1;
+    kernel().linear_combination(padded(z), count, c, pointers(count, x).data(), data(z));
+    return 0;
+  };
+  ops->nvscaleaddmulti = [](int count, double* a, N_Vector x, N_Vector* y, N_Vector* z) {
+    if (count > most_vectors) return -1;
+    kernel().scale_add_multi(padded(x), count, a, data(x), pointers(count, y).data(), pointers(count, z).data());
+    return 0;
+  };
+}
+
+}  // namespace
+
+N_Vector make_fused_vector(std::size_t n, SUNContext context) {
+  N_Vector v = N_VNewEmpty(context);
+  if (v == nullptr) throw std::bad_alloc();
+  v->content = new Content(n);
+  v->ops->nvgetvectorid = [](N_Vector) { return SUNDIALS_NVEC_CUSTOM; };
+  v->ops->nvclone = clone;
+  v->ops->nvdestroy = destroy;
+  v->ops->nvgetarraypointer = [](N_Vector a) { return data(a); };
+  v->ops->nvgetlength = [](N_Vector a) { return static_cast<sunindextype>(content(a).size); };
+  fill_standard_operations(v->ops);
+  fill_fused_operations(v->ops);
+  return v;
+}
+
+std::span<double> values(N_Vector v) { return {data(v), content(v).size}; }
+
+}  // namespace suture

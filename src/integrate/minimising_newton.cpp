@@ -1,0 +1,142 @@
+#include "integrate/minimising_newton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace suture {
+
+MinimisingNewton::MinimisingNewton(GradientFlowSystem& system, const NewtonOptions& options)
+    : system_(&system),
+      kernel_(&kernels::best()),
+      options_(options),
+      n_(system.position_count()),
+      padded_((n_ + 7) / 8 * 8),
+      buffer_(9 * padded_) {
+  for (double** v : {&q_, &start_, &f_, &trial_, &z_, &d_, &r_, &p_, &ap_}) *v = vector();
+}
+
+Evaluation MinimisingNewton::residual(std::span<const double> q, double* f) {
+  ++counts_.residuals;
+  return system_->residual(q, span(f));
+}
+
+double MinimisingNewton::norm(double squared) const {
+  return options_.weight * std::sqrt(std::max(squared, 0.0) / static_cast<double>(n_));
+}
+
+bool MinimisingNewton::preconditioner_aged(double gamma) const {
+  const double ratio = gamma / preconditioner_gamma_;
+  return preconditioner_gamma_ == 0.0 || ratio > 1.6 || ratio < 1.0 / 1.6 || preconditioner_age_ > 40 ||
+         last_linear_ > 3 * std::max(fresh_linear_, 2);
+}
+
+void MinimisingNewton::refresh(double gamma) {
+  system_->set_up_preconditioner();
+  ++counts_.setups;
+  preconditioner_gamma_ = gamma;
+  preconditioner_age_ = 0;
+  fresh_linear_ = 0;
+  last_linear_ = 0;
+}
+
+void MinimisingNewton::conjugate_gradients(double fz, double target) {
+  const kernels::Table& k = *kernel_;
+  std::fill_n(d_, n_, 0.0);
+  k.linear_sum(padded_, -1.0, f_, 0.0, f_, r_);
+  k.linear_sum(padded_, -1.0, z_, 0.0, z_, p_);
+  constexpr int most = 200;
+  int iteration = 0;
+  double rz = fz;
+  for (; iteration < most && norm(rz) > target; ++iteration) {
+    system_->product(span(p_), span(ap_));
+    const double curvature = k.dot(padded_, p_, ap_);
+    if (curvature <= 0.0) {  // keep what there is; at the start that is the preconditioned gradient
+      if (iteration == 0) std::copy_n(p_, n_, d_);
+      break;
+    }
+    const double step = rz / curvature;
+    k.linear_sum(padded_, 1.0, d_, step, p_, d_);
+    k.linear_sum(padded_, 1.0, r_, -step, ap_, r_);
+    system_->precondition(span(r_), span(z_));
+    const double next = k.dot(padded_, r_, z_);
+    k.linear_sum(padded_, 1.0, z_, next / rz, p_, p_);
+    rz = next;
+  }
+  counts_.linear_iterations += iteration;
+  last_linear_ = iteration;
+  if (fresh_linear_ == 0) fresh_linear_ = iteration;
+}
+
+bool MinimisingNewton::line_search() {
+  const kernels::Table& k = *kernel_;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < n_; ++i) largest = std::max(largest, std::abs(d_[i]));
+  if (largest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / largest, d_, 0.0, d_, d_);
+  const double slope = k.dot(padded_, f_, d_);
+  // Forces are piecewise linear, so one secant on the directional derivative is nearly exact.
+  double step = 1.0;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    k.linear_sum(padded_, 1.0, q_, step, d_, trial_);
+    if (residual(span(trial_), r_) != Evaluation::ok) {
+      step *= 0.25;
+      continue;
+    }
+    const double end = k.dot(padded_, r_, d_);
+    if (end <= 0.5 * std::abs(slope) || step < 1e-4 || attempt == 7) {
+      std::swap(q_, trial_);
+      std::swap(f_, r_);
+      return true;
+    }
+    step *= std::clamp(-slope / (end - slope), 1e-2, 0.9);
+  }
+  return false;
+}
+
+NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const NewtonTarget& target) {
+  const kernels::Table& k = *kernel_;
+  const double wanted = 0.5 * target.tolerance;
+  std::copy_n(q.data(), n_, q_);
+  std::copy_n(q.data(), n_, start_);
+  if (residual(span(q_), f_) != Evaluation::ok) {
+    ++counts_.failures;
+    return NewtonResult::not_converged;
+  }
+  ++preconditioner_age_;
+  bool linearised = false;
+  if (preconditioner_aged(gamma)) {
+    system_->linearise();
+    ++counts_.hessians;
+    refresh(gamma);
+    linearised = true;
+  }
+  double error = 0.0;
+  for (int iteration = 0; iteration <= options_.maximum_iterations; ++iteration) {
+    system_->precondition(span(f_), span(z_));
+    const double fz = k.dot(padded_, f_, z_);
+    error = norm(fz);
+    const bool last = iteration == options_.maximum_iterations;
+    if (error <= wanted || (last && error <= 6.0 * wanted)) {
+      k.linear_sum(padded_, 1.0, q_, -1.0, z_, q_);  // a free correction, already paid for
+      std::copy_n(q_, n_, q.data());
+      return NewtonResult::converged;
+    }
+    if (last || !std::isfinite(error)) break;
+    if (!linearised) {
+      system_->linearise();
+      ++counts_.hessians;
+    }
+    linearised = false;
+    ++counts_.iterations;
+    conjugate_gradients(fz, std::max(options_.forcing * error, wanted));
+    if (!line_search()) break;
+    k.linear_sum(padded_, 1.0, q_, -1.0, start_, trial_);
+    if (norm(k.dot(padded_, trial_, trial_)) > target.give_up) {
+      ++counts_.early_exits;
+      return NewtonResult::too_long;
+    }
+  }
+  ++counts_.failures;
+  return NewtonResult::not_converged;
+}
+
+}  // namespace suture

@@ -1,0 +1,66 @@
+// The nonlinear solver of one implicit step, as a minimisation (docs/explanation/numerics.md). Semi-smooth Newton on
+//     F(q) = q - psi + gamma dU/dq = 0
+// with the CURRENT contact set, truncated preconditioned conjugate gradients, and a line search on the directional
+// derivative, so that contacts may switch inside the iteration without failing the step.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "ode/aligned_buffer.hpp"
+#include "ode/kernels/kernels.hpp"
+#include "suture/ode/ode_system.hpp"
+
+namespace suture {
+
+struct NewtonOptions {
+  double weight = 1.0;          ///< 1/(absolute tolerance of positions)
+  double largest_move = 0.06;   ///< of any component in one iteration, model units of length (half a membrane segment)
+  int maximum_iterations = 5;
+  double forcing = 0.2;         ///< conjugate gradients stop at this fraction of the residual
+};
+
+/// What a solve has to meet, in weighted RMS norm.
+struct NewtonTarget {
+  double tolerance = 0.0;       ///< of the remaining error
+  double give_up = 0.0;         ///< correction beyond which the step would fail the error test anyway
+};
+
+enum class NewtonResult { converged, too_long, not_converged };
+
+class MinimisingNewton {
+ public:
+  MinimisingNewton(GradientFlowSystem& system, const NewtonOptions& options);
+
+  /// system.begin_implicit_step has been called. q: prediction in, solution out (positions only).
+  NewtonResult solve(double gamma, std::span<double> q, const NewtonTarget& target);
+
+  struct Counts {
+    std::int64_t residuals = 0, iterations = 0, linear_iterations = 0, hessians = 0, setups = 0, early_exits = 0, failures = 0;
+  };
+  const Counts& counts() const { return counts_; }
+
+ private:
+  double* vector() { return buffer_.take(n_); }
+  std::span<double> span(double* p) const { return {p, n_}; }
+  Evaluation residual(std::span<const double> q, double* f);
+  double norm(double squared) const;
+  void refresh(double gamma);
+  bool preconditioner_aged(double gamma) const;
+  /// d <- approximate solution of (I + gamma H) d = -f; z_ holds P^-1 f.
+  void conjugate_gradients(double fz, double target);
+  /// Moves q_ along d_; false when no acceptable state was found.
+  bool line_search();
+
+  GradientFlowSystem* system_;
+  const kernels::Table* kernel_;
+  NewtonOptions options_;
+  std::size_t n_, padded_;
+  AlignedBuffer buffer_;
+  double *q_, *start_, *f_, *trial_, *z_, *d_, *r_, *p_, *ap_;
+  double preconditioner_gamma_ = 0.0;
+  int preconditioner_age_ = 0, last_linear_ = 0, fresh_linear_ = 0;
+  Counts counts_;
+};
+
+}  // namespace suture

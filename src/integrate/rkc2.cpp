@@ -1,0 +1,167 @@
+// Runge-Kutta-Chebyshev of order 2: stability interval about 0.65 s^2 along the negative real axis with s stages, which
+// suits a gradient flow. Sommeijer, Shampine and Verwer, J. Comput. Appl. Math. 88 (1998) 315.
+#include <algorithm>
+#include <cmath>
+
+#include "integrate/explicit_integrator.hpp"
+#include "integrate/rivals.hpp"
+
+namespace suture {
+
+namespace {
+
+class Rkc2 final : public ExplicitIntegrator {
+ public:
+  Rkc2(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
+      : ExplicitIntegrator(system, options, t, y), direction_(f_), stage_a_(y.size()), stage_b_(y.size()), stage_f_(y.size()) {
+    counts_.restarts = 0;
+    h_ = options.initial_step;
+  }
+
+  double step(double limit) override;
+  int last_order() const override { return 2; }
+
+ private:
+  void estimate_spectral_radius();
+  double first_step();
+  /// Fills y_next_; false when a stage was refused.
+  bool stages(double h, int s);
+  double error_norm(double h);
+  double norm(std::span<const double> v) const;
+
+  std::vector<double> direction_, stage_a_, stage_b_, stage_f_, errors_;
+  double h_ = 0.0, radius_ = 0.0;
+  int steps_since_radius_ = 0;
+};
+
+double Rkc2::norm(std::span<const double> v) const {
+  const std::size_t n = system_->position_count();
+  double positions = 0.0, rest = 0.0;
+  for (std::size_t k = 0; k < n; ++k) positions += v[k] * v[k];
+  for (std::size_t k = n; k < v.size(); ++k) rest += v[k] * v[k];
+  const double p = options_.position_tolerance, r = options_.rest_length_tolerance;
+  return std::sqrt((positions / (p * p) + rest / (r * r)) / static_cast<double>(v.size()));
+}
+
+/// Nonlinear power iteration, started from the previous eigenvector.
+void Rkc2::estimate_spectral_radius() {
+  const auto length = [](const std::vector<double>& v) {
+    double s = 0.0;
+    for (const double a : v) s += a * a;
+    return std::sqrt(s);
+  };
+  const double scale = std::sqrt(static_cast<double>(y_.size())) * 1e-3 * options_.position_tolerance;
+  double size = length(direction_);
+  if (!(size > 0.0)) {
+    for (std::size_t k = 0; k < direction_.size(); ++k) direction_[k] = (k % 2 == 0) ? 1.0 : -1.0;
+    size = length(direction_);
+  }
+  double estimate = 0.0;
+  for (int iteration = 0; iteration < 50; ++iteration) {
+    for (std::size_t k = 0; k < y_.size(); ++k) stage_a_[k] = y_[k] + scale / size * direction_[k];
+    if (evaluate(time_, stage_a_, stage_f_) != Evaluation::ok) break;
+    for (std::size_t k = 0; k < y_.size(); ++k) direction_[k] = stage_f_[k] - f_[k];
+    size = length(direction_);
+    const double before = estimate;
+    estimate = size / scale;
+    if (iteration >= 1 && std::abs(estimate - before) <= 0.01 * estimate) break;
+    if (!(size > 0.0)) break;
+  }
+  radius_ = 1.2 * std::max(estimate, 1e-6);
+  steps_since_radius_ = 0;
+}
+
+double Rkc2::first_step() {
+  double h = std::min(1.0 / radius_, options_.maximum_step > 0.0 ? options_.maximum_step : 1e300);
+  for (std::size_t k = 0; k < y_.size(); ++k) stage_a_[k] = y_[k] + h * f_[k];
+  if (evaluate(time_ + h, stage_a_, stage_f_) != Evaluation::ok) return 0.1 * h;
+  for (std::size_t k = 0; k < y_.size(); ++k) stage_f_[k] = h * (stage_f_[k] - f_[k]);
+  const double error = norm(stage_f_);
+  return error > 0.01 ? 0.1 * h / std::sqrt(error) : h;
+}
+
+bool Rkc2::stages(double h, int s) {
+  const double w0 = 1.0 + 2.0 / (13.0 * s * s);
+  // Chebyshev polynomials T_j(w0) and their first two derivatives, by recurrence.
+  double t0 = 1.0, t1 = w0, d0 = 0.0, d1 = 1.0, dd0 = 0.0, dd1 = 0.0;
+  {
+    double a = 1.0, b = w0, da = 0.0, db = 1.0, dda = 0.0, ddb = 0.0;
+    for (int j = 2; j <= s; ++j) {
+      const double c = 2.0 * w0 * b - a, dc = 2.0 * b + 2.0 * w0 * db - da, ddc = 4.0 * db + 2.0 * w0 * ddb - dda;
+      a = b, b = c, da = db, db = dc, dda = ddb, ddb = ddc;
+    }
+    t0 = db, t1 = ddb;  // T's(w0), T''s(w0)
+  }
+  const double w1 = t0 / t1;
+  const double b2 = 4.0 / std::pow(4.0 * w0, 2);  // T''_2/(T'_2)^2
+  double bj2 = b2, bj1 = b2;
+  t0 = 1.0, t1 = w0;
+  double mu1 = bj1 * w1;
+  const std::size_t n = y_.size();
+  std::vector<double>*previous = &stage_a_, *current = &stage_b_;  // Y_{j-2}, Y_{j-1}
+  std::copy(y_.begin(), y_.end(), previous->begin());
+  for (std::size_t k = 0; k < n; ++k) (*current)[k] = y_[k] + mu1 * h * f_[k];
+  double c_previous = 0.0, c_current = mu1;
+  for (int j = 2; j <= s; ++j) {
+    const double t2 = 2.0 * w0 * t1 - t0, d2 = 2.0 * t1 + 2.0 * w0 * d1 - d0, dd2 = 4.0 * d1 + 2.0 * w0 * dd1 - dd0;
+    const double bj = dd2 / (d2 * d2);
+    const double mu = 2.0 * bj * w0 / bj1, nu = -bj / bj2, mut = 2.0 * bj * w1 / bj1;
+    const double gammat = -(1.0 - bj1 * t1) * mut;
+    if (evaluate(time_ + c_current * h, *current, stage_f_) != Evaluation::ok) return false;
+    std::vector<double>& out = j == s ? y_next_ : *previous;
+    for (std::size_t k = 0; k < n; ++k)
+      out[k] = (1.0 - mu - nu) * y_[k] + mu * (*current)[k] + nu * (*previous)[k] + h * (mut * stage_f_[k] + gammat * f_[k]);
+    const double c_next = mu * c_current + nu * c_previous + mut + gammat;
+    c_previous = c_current, c_current = c_next;
+    std::swap(previous, current);
+    t0 = t1, t1 = t2, d0 = d1, d1 = d2, dd0 = dd1, dd1 = dd2;
+    bj2 = bj1, bj1 = bj;
+  }
+  return true;
+}
+
+double Rkc2::error_norm(double h) {
+  for (std::size_t k = 0; k < y_.size(); ++k)
+    stage_f_[k] = 0.8 * (y_[k] - y_next_[k]) + 0.4 * h * (f_[k] + f_next_[k]);
+  return norm(stage_f_);
+}
+
+double Rkc2::step(double limit) {
+  if (radius_ == 0.0 || steps_since_radius_ >= 25) estimate_spectral_radius();
+  if (h_ == 0.0) h_ = first_step();
+  for (int attempt = 0; attempt < 60; ++attempt) {
+    double h = h_;
+    if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
+    const bool last = time_ + h * 1.01 >= limit;
+    if (last) h = limit - time_;
+    const int s = std::max(2, 1 + static_cast<int>(std::sqrt(1.54 * h * radius_ + 1.0)));
+    bool good = stages(h, s) && evaluate(time_ + h, y_next_, f_next_) == Evaluation::ok;
+    const double error = good ? error_norm(h) : 0.0;
+    if (good && error <= 1.0) {
+      const double factor = std::clamp(0.8 / std::cbrt(std::max(error, 1e-9)), 0.3, 5.0);
+      if (!last || factor < 1.0) h_ = h * factor;
+      ++steps_since_radius_;
+      accept(h);
+      if (last) time_ = limit;
+      return time_;
+    }
+    if (good) {
+      ++counts_.error_test_failures;
+      h_ = h * std::clamp(0.8 / std::cbrt(error), 0.1, 0.8);
+    } else {
+      ++counts_.convergence_failures;
+      h_ = 0.25 * h;
+    }
+    if (steps_since_radius_ > 0) estimate_spectral_radius();
+    if (time_ + h_ == time_) break;
+  }
+  fail("the error test failed repeatedly", h_, stage_f_);
+}
+
+}  // namespace
+
+std::unique_ptr<Integrator> make_rkc2(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y) {
+  return std::make_unique<Rkc2>(system, options, t, y);
+}
+
+}  // namespace suture

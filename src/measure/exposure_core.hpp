@@ -1,0 +1,21 @@
+// The parts of the exposure test that work on a grid somebody else has built.
+#pragma once
+
+#include "measure/segment_grid.hpp"
+#include "suture/measure/exposure.hpp"
+
+namespace suture {
+
+/// Buckets a little larger than a segment: most segments are filed once, few strangers are visited.
+inline double grid_bucket_size(const Membrane& membrane) { return 1.2 * membrane.contact_distance; }
+
+/// Centre of the disc of this radius that touches the membrane at the vertex from outside, on the bisector.
+Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, double radius);
+
+/// Whether p lies inside a cell other than own_cell (-1: any cell).
+bool inside_other_cell(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, int own_cell, Point p);
+
+void measure_exposure(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, const Membrane& membrane,
+                      ExposureRule rule, Exposure& out);
+
+}  // namespace suture

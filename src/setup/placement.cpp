@@ -1,0 +1,97 @@
+#include "suture/setup/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "suture/setup/fire.hpp"
+
+namespace suture {
+
+namespace {
+
+/// Adds dU/dr of the soft overlaps; positions are all x, then all y.
+Evaluation overlap_gradient(std::span<const double> radii, double wall_radius, std::span<const double> q,
+                            std::span<double> gradient) {
+  const std::size_t count = radii.size();
+  const auto x = q.first(count), y = q.last(count);
+  const auto gx = gradient.first(count), gy = gradient.last(count);
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double from_centre = std::hypot(x[i], y[i]);
+    if (wall_radius - from_centre < radii[i] && from_centre > 0.0) {
+      const double slope = 2.0 * (1.0 - (wall_radius - from_centre) / radii[i]) / (radii[i] * from_centre);
+      gx[i] += slope * x[i];
+      gy[i] += slope * y[i];
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const double dx = x[i] - x[j], dy = y[i] - y[j], reach = radii[i] + radii[j];
+      const double squared_distance = dx * dx + dy * dy;
+      if (squared_distance >= reach * reach || squared_distance == 0.0) continue;
+      const double distance = std::sqrt(squared_distance);
+      const double slope = -2.0 * (1.0 - distance / reach) / (reach * distance);
+      gx[i] += slope * dx, gx[j] -= slope * dx;
+      gy[i] += slope * dy, gy[j] -= slope * dy;
+    }
+  }
+  return Evaluation::ok;
+}
+
+double deepest_overlap(std::span<const double> radii, double wall_radius, std::span<const double> x,
+                       std::span<const double> y) {
+  double deepest = -wall_radius;
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    deepest = std::max(deepest, std::hypot(x[i], y[i]) + radii[i] - wall_radius);
+    for (std::size_t j = 0; j < i; ++j)
+      deepest = std::max(deepest, radii[i] + radii[j] - std::hypot(x[i] - x[j], y[i] - y[j]));
+  }
+  return deepest;
+}
+
+}  // namespace
+
+DiscPlacement spread_discs(std::span<const double> radii, double wall_radius, RandomStream& random) {
+  const std::size_t count = radii.size();
+  std::vector<double> q(2 * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    double x, y;
+    do {
+      x = random.uniform(-1.0, 1.0);
+      y = random.uniform(-1.0, 1.0);
+    } while (x * x + y * y >= 1.0);
+    q[i] = wall_radius * x;
+    q[count + i] = wall_radius * y;
+  }
+  // A disc of radius r has stiffness 2/(2r)^2 per contact and at most six neighbours.
+  const double smallest = *std::min_element(radii.begin(), radii.end());
+  const FireOptions options{.force_tolerance = 1e-4 / smallest,
+                            .maximum_iterations = 20000,
+                            .initial_time_step = 0.1 * smallest,
+                            .maximum_time_step = 0.5 * smallest,
+                            .minimum_time_step = 0.002 * smallest,
+                            .maximum_displacement = 0.1 * smallest};
+  Fire(q.size()).minimise(
+      q, [&](std::span<const double> at, std::span<double> out) { return overlap_gradient(radii, wall_radius, at, out); },
+      options);
+  DiscPlacement placement{.x = {q.begin(), q.begin() + count}, .y = {q.begin() + count, q.end()}};
+  placement.deepest_overlap = deepest_overlap(radii, wall_radius, placement.x, placement.y);
+  return placement;
+}
+
+std::vector<double> regular_polygons(const Tissue& tissue, const DiscPlacement& centres,
+                                     std::span<const double> corner_radius, double noise, RandomStream& random) {
+  const int count = tissue.vertex_count();
+  std::vector<double> positions(2 * static_cast<std::size_t>(count));
+  for (int cell = 0; cell < tissue.cell_count(); ++cell) {
+    const double phase = random.uniform();
+    for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) {
+      const double turn = phase + static_cast<double>(v - tissue.first_vertex(cell)) / tissue.vertex_count(cell);
+      const double radius = corner_radius[cell] * (1.0 + noise * random.normal());
+      positions[v] = centres.x[cell] + radius * std::cos(2.0 * std::numbers::pi * turn);
+      positions[count + v] = centres.y[cell] + radius * std::sin(2.0 * std::numbers::pi * turn);
+    }
+  }
+  return positions;
+}
+
+}  // namespace suture
