@@ -16,9 +16,9 @@ struct WoundSample {
   std::optional<double> wound_area;
   std::optional<double> mean_shape;  ///< of the wound-adjacent cells
   std::optional<double> perimeter;
-  int ring_size = 0;                 ///< purse-string vertices
-  int parts = 0;                     ///< pieces the wound consists of
-  double shortest_segment = 0.0;     ///< smallest l0/l0(0)
+  int ring_size = 0;              ///< purse-string vertices
+  int parts = 0;                  ///< pieces the wound consists of
+  double shortest_segment = 0.0;  ///< smallest l0/l0(0)
   double energy = 0.0;
 };
 
