@@ -132,7 +132,7 @@ void BoundaryPieces::add_line(int v) {
   if (uncovered_.empty()) return;
   const double x = s.ax + rho_ * s.uy, y = s.ay - rho_ * s.ux;
   const double x_end = x + s.length * s.ux, y_end = y + s.length * s.uy;
-  const Box box{std::min(x, x_end), std::max(x, x_end), std::min(y, y_end), std::max(y, y_end)};
+  const BoundingBox box{std::min(x, x_end), std::max(x, x_end), std::min(y, y_end), std::max(y, y_end)};
   if (!grid_->visit_near(box, rho_, [&](int j) { return cover_line(v, j); })) add_pieces(v, false);
 }
 

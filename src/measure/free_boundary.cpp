@@ -65,8 +65,8 @@ void FreeBoundary::Impl::add_to_loop(BoundaryLoop& loop, const Piece& piece, Poi
   loop.signed_area += 0.5 * cross(origin, piece.end, boundary.pieces()[piece.next].start);
 }
 
-/// Membranes exactly parallel and exactly 2 rho apart, which only drawn tissues have, leave lines whose coverage rounding
-/// decides; a probe larger by one part in 1e9 settles them.
+/// Membranes exactly parallel and exactly 2 rho apart, which only drawn tissues have, leave lines whose coverage
+/// rounding decides; a probe larger by one part in 1e9 settles them.
 void FreeBoundary::Impl::link(const Tissue& tissue) {
   constexpr double rounding = 1e-6, enlargement = 1e-9;
   constexpr int attempts = 3;

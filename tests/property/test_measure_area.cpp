@@ -1,7 +1,6 @@
 // The wound's area against an independent flood fill, its continuity, and its invariances, on random tissues.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
@@ -15,7 +14,9 @@ namespace {
 
 /// A star-shaped wound with deep bays, every vertex moved at random.
 TissueState star(double noise, unsigned seed, double waist = 0.6) {
-  const auto inner = [=](double angle) { return waist + 0.5 * (1.0 + std::cos(5.0 * angle)) * (0.8 + 0.2 * std::sin(angle)); };
+  const auto inner = [=](double angle) {
+    return waist + 0.5 * (1.0 + std::cos(5.0 * angle)) * (0.8 + 0.2 * std::sin(angle));
+  };
   TissueState state = tissue_of(sector_ring({.cells = 11,
                                              .inner = inner,
                                              .outer = [=](double angle) { return inner(angle) + 1.0; },

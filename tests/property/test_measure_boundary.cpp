@@ -1,6 +1,5 @@
 // Exposure and the free boundary against brute force and against each other, on random tissues.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -32,7 +31,8 @@ double distance_to_others(const TissueState& state, int cell, Point p) {
 Point vertex(const TissueState& state, int v) { return {state.view().x[v], state.view().y[v]}; }
 
 Point outward_normal(const TissueState& state, int v) {
-  const Point a = vertex(state, state.tissue.previous(v)), b = vertex(state, v), c = vertex(state, state.tissue.next(v));
+  const Point a = vertex(state, state.tissue.previous(v)), b = vertex(state, v),
+              c = vertex(state, state.tissue.next(v));
   const double in = std::hypot(b.x - a.x, b.y - a.y), out = std::hypot(c.x - b.x, c.y - b.y);
   const Point n{(b.y - a.y) / in + (c.y - b.y) / out, -(b.x - a.x) / in - (c.x - b.x) / out};
   const double norm = std::hypot(n.x, n.y);

@@ -160,8 +160,7 @@ class Pixels {
   template <typename Do>
   void around(Point p, double radius, Do&& act) const {
     for (int j = std::max(0, row(p.y - radius)); j <= std::min(rows_ - 1, row(p.y + radius)); ++j)
-      for (int i = std::max(0, column(p.x - radius)); i <= std::min(columns_ - 1, column(p.x + radius)); ++i)
-        act(i, j);
+      for (int i = std::max(0, column(p.x - radius)); i <= std::min(columns_ - 1, column(p.x + radius)); ++i) act(i, j);
   }
 
   std::vector<char> open;
@@ -172,7 +171,7 @@ class Pixels {
 };
 
 void close_cell(Pixels& pixels, const Polygon& cell, double rho) {
-  const Box box = bounding_box(cell);
+  const BoundingBox box = bounding_box(cell);
   const Point middle{0.5 * (box.x_low + box.x_high), 0.5 * (box.y_low + box.y_high)};
   const double reach = 0.5 * std::max(box.x_high - box.x_low, box.y_high - box.y_low) + rho;
   pixels.around(middle, reach, [&](int i, int j) {

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "suture/errors.hpp"
@@ -24,7 +23,8 @@ TEST_CASE("closure times of an exponential converge with the sampling", "[unit]"
   double last_error = 1.0;
   for (const double step : {1.0, 0.5, 0.25}) {
     WoundSeries series;
-    for (double t = 0.0; t <= 80.0; t += step) series.time.push_back(t), series.area.push_back(6.0 * std::exp(-t / 20.0));
+    for (double t = 0.0; t <= 80.0; t += step)
+      series.time.push_back(t), series.area.push_back(6.0 * std::exp(-t / 20.0));
     const double error = std::abs(*summarise_closure(series).t_05 - 20.0 * std::log(20.0));
     CHECK(error < last_error);
     CHECK(error < 0.01 * step);

@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +17,7 @@ Polygon rectangle(double x, double y, double width, double height) {
   Polygon polygon;
   const auto side = [&](Point a, Point b) {
     const int count = static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y) / 0.1 - 1e-9));
-    for (int i = 0; i < count; ++i)
-      polygon.push_back({a.x + (b.x - a.x) * i / count, a.y + (b.y - a.y) * i / count});
+    for (int i = 0; i < count; ++i) polygon.push_back({a.x + (b.x - a.x) * i / count, a.y + (b.y - a.y) * i / count});
   };
   const Point p0{x, y}, p1{x + width, y}, p2{x + width, y + height}, p3{x, y + height};
   side(p0, p1), side(p1, p2), side(p2, p3), side(p3, p0);
@@ -65,7 +63,8 @@ TEST_CASE("facing membranes are exposed when the probe fits between them", "[uni
 
 TEST_CASE("at the mouth of a crack only the probe sees the corner", "[unit]") {
   const TissueState state = tissue_of({rectangle(0, 0, 1, 1), rectangle(1.1, 0, 1, 1)});
-  const int corner = vertex_at(state, 1.0, 1.0), inside = vertex_at(state, 1.0, 0.9), before = vertex_at(state, 0.9, 1.0);
+  const int corner = vertex_at(state, 1.0, 1.0), inside = vertex_at(state, 1.0, 0.9),
+            before = vertex_at(state, 0.9, 1.0);
   const Exposure probe = exposed_vertices(state.tissue, state.view(), membrane);
   const Exposure strict = exposed_vertices(state.tissue, state.view(), membrane, ExposureRule::contact_free);
   // The probe's centre sits on the diagonal, 0.065 from the corner and 0.0712 from the other cell's corner.
@@ -85,7 +84,8 @@ TEST_CASE("a narrow slot in one cell is not reached, a wide one is", "[unit]") {
     for (int i = 0; i <= 6; ++i) slot.push_back({0.5 + 0.5 * width, 1.0 - 0.1 * i});
     for (int i = 6; i >= 0; --i) slot.push_back({0.5 - 0.5 * width, 1.0 - 0.1 * i});
     const auto end = std::find_if(top, cell.end(), [&](Point p) { return p.x < 0.5 - 0.5 * width - 1e-9; });
-    const auto place = cell.erase(std::find_if(cell.begin(), end, [&](Point p) { return p.y == 1.0 && p.x < 0.5 + 0.5 * width + 1e-9; }), end);
+    const auto place = cell.erase(
+        std::find_if(cell.begin(), end, [&](Point p) { return p.y == 1.0 && p.x < 0.5 + 0.5 * width + 1e-9; }), end);
     cell.insert(place, slot.begin(), slot.end());
     const TissueState state = tissue_of({cell});
     const Exposure exposure = exposed_vertices(state.tissue, state.view(), membrane);

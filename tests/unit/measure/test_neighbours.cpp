@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 
@@ -104,7 +103,8 @@ TEST_CASE("a cell of a honeycomb has six neighbours and junctions of three", "[u
   REQUIRE(state.tissue.cell_count() == 19);
   CHECK(graph.pairs().size() == 42);
   CHECK(rosette_order(state.tissue, state.view(), 0.2) == 3);
-  const TissueState ring = tissue_of(sector_ring({.cells = 6, .inner = [](double) { return 0.15; }, .outer = [](double) { return 1.5; }}));
+  const TissueState ring =
+      tissue_of(sector_ring({.cells = 6, .inner = [](double) { return 0.15; }, .outer = [](double) { return 1.5; }}));
   CHECK(rosette_order(ring.tissue, ring.view(), 0.35) == 6);
   CHECK_THROWS_AS(rosette_order(ring.tissue, ring.view(), 0.0), InputError);
   CHECK_THROWS_AS(contact_graph(ring.tissue, ring.view(), default_membrane(), {}, 0.01), InputError);

@@ -1,5 +1,4 @@
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
 
@@ -16,7 +15,8 @@ TEST_CASE("a honeycomb is one confluent patch, with a cell missing it is not", "
   const PatchReport good = inspect_patch(whole.tissue, whole.view(), m, false);
   CHECK(good.components == 1);
   CHECK(good.confluent(0.05));
-  const TissueState pierced = tissue_of(honeycomb({.rings = 3, .removed = [](Point p) { return std::hypot(p.x, p.y) < 0.1; }}));
+  const TissueState pierced =
+      tissue_of(honeycomb({.rings = 3, .removed = [](Point p) { return std::hypot(p.x, p.y) < 0.1; }}));
   const PatchReport bad = inspect_patch(pierced.tissue, pierced.view(), m, false);
   CHECK(bad.largest_hole() > 0.8);
   CHECK_FALSE(bad.confluent(0.05));

@@ -1,6 +1,5 @@
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -35,8 +34,11 @@ TissueState peanut(double neck, double skew = 0.0) {
     const double c = std::cos(angle);
     return neck + (1.2 + skew * c) * c * c;
   };
-  return tissue_of(sector_ring(
-      {.cells = 10, .inner = inner, .outer = [=](double a) { return inner(a) + 1.0; }, .gap = 0.08, .inner_points = 25}));
+  return tissue_of(sector_ring({.cells = 10,
+                                .inner = inner,
+                                .outer = [=](double a) { return inner(a) + 1.0; },
+                                .gap = 0.08,
+                                .inner_points = 25}));
 }
 
 double delta(const Membrane& m) { return m.probe_radius() - m.half_width(); }
@@ -85,7 +87,8 @@ TEST_CASE("the wound boundary lists each cell's exposed vertices, counter-clockw
 
 TEST_CASE("a cell that shows a single vertex keeps its place in the boundary", "[unit]") {
   // A wedge between sectors 0 and 7 whose tip reaches the wound.
-  auto cells = sector_ring({.cells = 7, .inner = [](double) { return 1.0; }, .outer = [](double) { return 2.0; }, .gap = 0.44});
+  auto cells =
+      sector_ring({.cells = 7, .inner = [](double) { return 1.0; }, .outer = [](double) { return 2.0; }, .gap = 0.44});
   cells.push_back({{0.98, 0.0}, {1.25, -0.07}, {1.9, -0.07}, {1.9, 0.07}, {1.25, 0.07}});
   const TissueState state = tissue_of(cells);
   const auto wound = find_wound(state.tissue, state.view(), {.contact_distance = 0.4, .range = 0.3});
