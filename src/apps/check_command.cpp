@@ -1,42 +1,37 @@
-#include "apps/check_command.hpp"
-
+// suture check: is this file what it claims to be?
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
-#include <string>
 
+#include "commands.hpp"
+#include "suture/errors.hpp"
 #include "suture/io/trajectory_check.hpp"
 
 namespace suture {
+
 namespace {
 
-int exit_code(FileVerdict verdict) {
-  switch (verdict) {
-    case FileVerdict::valid: return 0;
-    case FileVerdict::unreadable: return 2;
-    case FileVerdict::invalid: return 3;
-  }
-  return 3;
-}
-
-void check_and_print(const std::string& path) {
-  const FileReport report = check_file(path);
-  const char* const verdict = report.verdict == FileVerdict::valid        ? "valid"
-                              : report.verdict == FileVerdict::unreadable ? "not a readable suture file"
-                                                                          : "INVALID";
-  fmt::print("{}: {}{}{}\n", path, verdict, report.content.empty() ? "" : "; ", report.content);
-  for (const std::string& problem : report.problems) fmt::print("  {}\n", problem);
-  if (const int code = exit_code(report.verdict); code != 0) throw CLI::RuntimeError(code);
+std::string text_of(const std::string& file, const FileReport& report) {
+  std::string text = fmt::format("{}: {}\n", file, report.verdict == FileVerdict::valid ? "valid" : "INVALID");
+  if (!report.content.empty()) text += fmt::format("  {}\n", report.content);
+  for (const std::string& problem : report.problems) text += fmt::format("  problem: {}\n", problem);
+  return text;
 }
 
 }  // namespace
 
-void add_check_command(CLI::App& app) {
-  CLI::App* const command = app.add_subcommand("check", "Verify a run.h5, summary.json or wound.csv");
-  const auto path = std::make_shared<std::string>();
-  command->add_option("file", *path, "File to verify")->required();
-  command->callback([path] { check_and_print(*path); });
+void add_check_command(CLI::App& program, CommandResult& result) {
+  const auto file = std::make_shared<std::string>();
+  CLI::App* command = program.add_subcommand("check", "verify a run.h5, summary.json or wound.csv");
+  command->add_option("FILE", *file, "file to verify")->required();
+  command->callback([file, &result] {
+    const FileReport report = check_file(*file);
+    if (report.verdict == FileVerdict::unreadable)
+      throw InputError(fmt::format("{}: not a readable suture file: {}", *file, report.problems.front()));
+    std::cout << text_of(*file, report);
+    if (report.verdict == FileVerdict::invalid) result.exit_code = ExitCode::failed;
+  });
 }
 
 }  // namespace suture

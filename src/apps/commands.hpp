@@ -21,7 +21,9 @@ struct CommandResult {
 /// parser (use a shared_ptr captured by the callback).
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
+void add_check_command(CLI::App& program, CommandResult& result);
 void add_config_command(CLI::App& program, CommandResult& result);
+void add_forces_command(CLI::App& program, CommandResult& result);
 void add_validate_command(CLI::App& program, CommandResult& result);
 
 }  // namespace suture

@@ -23,7 +23,9 @@ namespace {
 
 using AddCommand = void (*)(CLI::App&, CommandResult&);
 constexpr AddCommand commands[] = {
+    add_check_command,
     add_config_command,
+    add_forces_command,
     add_validate_command,
 };
 

@@ -19,6 +19,19 @@ Statistics& Statistics::operator+=(const Statistics& o) {
   return *this;
 }
 
+IntegratorOptions integrator_options(const Config& config, double rest_length) {
+  const IntegratorParameters& p = config.integrator;
+  IntegratorOptions options;
+  options.method = p.method;
+  options.position_tolerance = p.tolerance * rest_length;
+  options.rest_length_tolerance = p.rest_length_tolerance * rest_length;
+  options.time_step = p.time_step.value_or(0.01 * rest_length / std::sqrt(std::max(config.area.stiffness, 1e-3)));
+  options.maximum_step = std::isfinite(p.maximum_step) ? p.maximum_step : 0.0;
+  options.maximum_order = p.maximum_order;
+  options.largest_move = 0.5 * rest_length;
+  return options;
+}
+
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const IntegratorOptions& options, double t,
                                             std::span<const double> y) {
   switch (options.method) {

@@ -33,8 +33,14 @@ constexpr std::array presets{
 };
 
 ConfigKey<Config> preset_key() {
-  ConfigKey<Config> row{{"", "preset", pure_number, anything,
-                         "bundle of defaults; keys given explicitly win over it, wherever they stand", {}, {}, presets},
+  ConfigKey<Config> row{{"",
+                         "preset",
+                         pure_number,
+                         anything,
+                         "bundle of defaults; keys given explicitly win over it, wherever they stand",
+                         {},
+                         {},
+                         presets},
                         [](Config& config) { return make_slot(config.preset); }};
   return row;
 }

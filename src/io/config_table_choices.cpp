@@ -57,18 +57,32 @@ constexpr std::array stages{
 }  // namespace
 
 template <>
-std::span<const Choice> choices_of<SpringLaw>() { return spring_laws; }
+std::span<const Choice> choices_of<SpringLaw>() {
+  return spring_laws;
+}
 template <>
-std::span<const Choice> choices_of<TetherLaw>() { return tether_laws; }
+std::span<const Choice> choices_of<TetherLaw>() {
+  return tether_laws;
+}
 template <>
-std::span<const Choice> choices_of<CaptureLaw>() { return capture_laws; }
+std::span<const Choice> choices_of<CaptureLaw>() {
+  return capture_laws;
+}
 template <>
-std::span<const Choice> choices_of<EventHandling>() { return event_handlings; }
+std::span<const Choice> choices_of<EventHandling>() {
+  return event_handlings;
+}
 template <>
-std::span<const Choice> choices_of<Method>() { return methods; }
+std::span<const Choice> choices_of<Method>() {
+  return methods;
+}
 template <>
-std::span<const Choice> choices_of<Protocol>() { return protocols; }
+std::span<const Choice> choices_of<Protocol>() {
+  return protocols;
+}
 template <>
-std::span<const Choice> choices_of<Stage>() { return stages; }
+std::span<const Choice> choices_of<Stage>() {
+  return stages;
+}
 
 }  // namespace suture

@@ -69,12 +69,13 @@ std::vector<ConfigKey<Config>> purse_string_keys() {
                                               "length l_y at which a tether breaks for good"),
       key<&C::purse_string, &P::capture>(section, "capture", pure_number, anything,
                                          "cell vertices that become exposed to the wound join the string"),
+      key<&C::purse_string, &P::crevice_depth>(section, "crevice_depth", pure_number, between(0, 10),
+                                               "vertices the string follows each cell into a crevice, beyond the exposed ones"),
       key<&C::purse_string, &P::capture_law>(section, "capture_law", pure_number, anything,
                                              "what a captured vertex does to the chain spring it splits"),
       key<&C::purse_string, &P::event_handling>(section, "event_handling", pure_number, anything,
                                                 "when breaking and capture of tethers are processed"),
-      key<&C::purse_string, &P::event_interval>(section, "event_interval", time, positive,
-                                                "spacing of the event grid"),
+      key<&C::purse_string, &P::event_interval>(section, "event_interval", time, positive, "spacing of the event grid"),
   };
 }
 

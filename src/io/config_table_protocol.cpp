@@ -18,16 +18,14 @@ void add_packing_keys(std::vector<ConfigKey<Config>>& rows) {
                                       "packing fraction per compression step"));
   add(key<&C::packing, &P::adhesion>(section, "adhesion", in_contact_distances, between(0, 1),
                                      "depth l1 of the adhesive well while compressing"));
-  add(key<&C::packing, &P::area_stiffness>(section, "area_stiffness", modulus, non_negative,
-                                           "k_a while compressing"));
+  add(key<&C::packing, &P::area_stiffness>(section, "area_stiffness", modulus, non_negative, "k_a while compressing"));
   add(key<&C::packing, &P::bending_stiffness>(section, "bending_stiffness", energy, non_negative,
                                               "k_b while compressing"));
-  add(key<&C::packing, &P::wall_energy>(section, "wall_energy", energy, positive,
-                                        "energy scale of the circular wall"));
+  add(key<&C::packing, &P::shape_noise>(section, "shape_noise", pure_number, {0.0, 0.5, true, false},
+                                        "random relative displacement of the corners of the first polygons"));
+  add(key<&C::packing, &P::wall_energy>(section, "wall_energy", energy, positive, "energy scale of the circular wall"));
   add(key<&C::packing, &P::wall_range>(section, "wall_range", in_contact_distances, positive,
                                        "range sigma of the wall"));
-  add(key<&C::packing, &P::shape_noise>(section, "shape_noise", pure_number, between(0, 0.2),
-                                        "random radial displacement of the first polygons' corners"));
   add(key<&C::packing, &P::step_tolerance>(section, "step_tolerance", force, positive,
                                            "largest force component left before the next compression step"));
   add(key<&C::packing, &P::force_tolerance>(section, "force_tolerance", force, positive,
@@ -64,9 +62,9 @@ void add_wound_keys(std::vector<ConfigKey<Config>>& rows) {
 void add_single_cell_keys(std::vector<ConfigKey<Config>>& rows) {
   using C = Config;
   const auto add = [&rows](ConfigKey<Config> row) { rows.push_back(std::move(row)); };
-  add(key<&C::compression, &CompressionParameters::gap>(
-      "compression", "gap", {Dimension::none, "cell diameters"}, above_zero_to(1),
-      "distance between the plates while the cell is compressed"));
+  add(key<&C::compression, &CompressionParameters::gap>("compression", "gap", {Dimension::none, "cell diameters"},
+                                                        above_zero_to(1),
+                                                        "distance between the plates while the cell is compressed"));
   add(key<&C::compression, &CompressionParameters::duration>("compression", "duration", time, positive,
                                                              "time T for which the cell is compressed"));
   add(key<&C::compression, &CompressionParameters::recovery>("compression", "recovery", time, non_negative,

@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.hpp"
 #include "suture/errors.hpp"
+#include "suture/io/units.hpp"
 
 namespace suture {
 namespace {
@@ -32,10 +33,10 @@ const char* status_name(RunStatus status) {
   throw FileError("a run status has no name");
 }
 
-void add_times(Json& json, const RunSummary& summary) {
+void add_times(Json& json, const RunSummary& summary, double time_min) {
   const auto add = [&](const char* key, const std::optional<double>& time) {
     json[key] = number(time);
-    json[std::string(key) + "_min"] = number(time, summary.scales.time_min);
+    json[std::string(key) + "_min"] = number(time, time_min);
   };
   add("t_purse_string", summary.t_purse_string);
   add("t_closed", summary.t_closed);
@@ -56,20 +57,21 @@ Json solver_counts(const Statistics& solver) {
 }  // namespace
 
 std::string to_json(const RunSummary& summary) {
-  const double area = summary.scales.area_um2();
+  const UnitScales scales(summary.units);
+  const double area = scales.factor(Dimension::area);
   Json json;
   json["status"] = status_name(summary.status);
   json["seed"] = summary.seed;
   json["k_a"] = number(summary.k_a);
   json["tau"] = number(summary.tau);
   json["xi"] = number(summary.xi);
-  add_times(json, summary);
+  add_times(json, summary, scales.time_min());
   json["wound_area_initial"] = number(summary.wound_area_initial);
   json["wound_area_initial_um2"] = number(summary.wound_area_initial, area);
   json["wound_area_max"] = number(summary.wound_area_max);
   json["wound_area_max_um2"] = number(summary.wound_area_max, area);
   json["closure_rate"] = number(summary.closure_rate);
-  json["closure_rate_um2_per_min"] = number(summary.closure_rate, area / summary.scales.time_min);
+  json["closure_rate_um2_per_min"] = number(summary.closure_rate, scales.factor(Dimension::area_rate));
   json["healed_shape"] = number(summary.healed_shape);
   json["events"] = {{"yield", summary.events.yield},
                     {"capture", summary.events.capture},

@@ -14,6 +14,7 @@
 
 #include "io/tissue_state_io.hpp"
 #include "suture/errors.hpp"
+#include "suture/geometry/polygon.hpp"
 #include "suture/io/summary.hpp"
 #include "suture/io/trajectory.hpp"
 #include "suture/io/wound_csv.hpp"
@@ -34,22 +35,19 @@ bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-double signed_area(const Tissue& tissue, const StateView& view, int cell) {
-  double twice = 0.0;
-  for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v)
-    twice += view.x[v] * view.y[tissue.next(v)] - view.x[tissue.next(v)] * view.y[v];
-  return 0.5 * twice;
-}
-
 void check_state(FileReport& out, const std::string& where, const TissueState& state) {
   if (!std::isfinite(state.time)) report(out, where + ": the time is not finite");
   if (!all_finite(state.values)) return report(out, where + ": a position or rest length is not finite");
   const StateView view = state.view();
+  const auto cell_area = [&](int cell) {
+    const std::size_t first = state.tissue.first_vertex(cell), count = state.tissue.vertex_count(cell);
+    return signed_area(view.x.subspan(first, count), view.y.subspan(first, count));
+  };
   for (int v = 0; v < state.tissue.vertex_count(); ++v)
     if (!(view.rest_length[v] > 0.0))
       report(out, fmt::format("{}: the rest length after {} is {}", where, state.tissue.vertex_name(v), view.rest_length[v]));
   for (int cell = 0; cell < state.tissue.cell_count(); ++cell)
-    if (const double area = signed_area(state.tissue, view, cell); !(area > 0.0))
+    if (const double area = cell_area(cell); !(area > 0.0))
       report(out, fmt::format("{}: cell {} is not counter-clockwise, its signed area is {}", where, cell, area));
 }
 
@@ -110,7 +108,7 @@ bool is_number_or_empty(std::string_view field) {
 
 FileReport check_wound_table(const std::string& text) {
   std::istringstream lines(text);
-  std::string line, header = to_csv({}, OutputScales{.length_um = 1.0, .time_min = 1.0});
+  std::string line, header = to_csv({}, UnitScales(UnitParameters{}));
   header.pop_back();
   if (!std::getline(lines, line) || line != header) return unreadable("the header line is not that of a wound table");
   FileReport out;

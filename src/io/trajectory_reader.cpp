@@ -23,7 +23,9 @@ Provenance read_provenance(const Hdf5Group& root) {
           .threads = static_cast<int>(group.integer_attribute("threads")),
           .position_tolerance = group.number_attribute("position_tolerance"),
           .rest_length_tolerance = group.number_attribute("rest_length_tolerance"),
-          .scales = {.length_um = root.number_attribute("length_um"), .time_min = root.number_attribute("time_min")}};
+          .units = {.rest_area_um2 = group.number_attribute("rest_area_um2"),
+                    .unsticking_force_nN = group.number_attribute("unsticking_force_nN"),
+                    .constriction_rate_um_per_s = group.number_attribute("constriction_rate_um_per_s")}};
 }
 
 TissueState read_stage(const Hdf5Group& group) {
@@ -50,7 +52,7 @@ TrajectoryFrame read_frame(const Hdf5Group& group, const Tissue& tissue) {
   }
   const std::vector<double> outline = group.pairs("wound_outline");
   const std::size_t points = outline.size() / 2;
-  for (std::size_t i = 0; i < points; ++i) frame.extras.wound_outline.emplace_back(outline[i], outline[points + i]);
+  for (std::size_t i = 0; i < points; ++i) frame.extras.wound_outline.push_back({outline[i], outline[points + i]});
   return frame;
 }
 

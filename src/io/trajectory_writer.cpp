@@ -9,22 +9,29 @@
 #include "io/tissue_state_io.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
+#include "suture/io/units.hpp"
+#include "suture/version.hpp"
 
 namespace suture {
 namespace {
 
 void write_header(const Hdf5Group& root, const Provenance& provenance) {
   const BuildInformation& build = build_information();
+  const UnitScales scales(provenance.units);
   root.set_attribute("schema", trajectory_schema);
   root.set_attribute("schema_version", std::int64_t{trajectory_schema_version});
   root.set_attribute("code_version", build.version);
-  root.set_attribute("code_commit", build.commit);
-  root.set_attribute("length_um", provenance.scales.length_um);
-  root.set_attribute("time_min", provenance.scales.time_min);
+  root.set_attribute("code_commit", std::string(build.commit) + (build.dirty ? "-dirty" : ""));
+  root.set_attribute("length_um", scales.length_um());
+  root.set_attribute("time_min", scales.time_min());
   const Hdf5Group group = root.create_group("provenance");
   group.set_attribute("compiler", build.compiler);
-  group.set_attribute("build_type", build.build_type);
+  group.set_attribute("compiler_flags", build.flags);
+  group.set_attribute("simd", build.simd);
   group.set_attribute("libraries", build.libraries);
+  group.set_attribute("rest_area_um2", provenance.units.rest_area_um2);
+  group.set_attribute("unsticking_force_nN", provenance.units.unsticking_force_nN);
+  group.set_attribute("constriction_rate_um_per_s", provenance.units.constriction_rate_um_per_s);
   group.set_attribute("start_time", provenance.start_time);
   group.set_attribute("seed", static_cast<std::int64_t>(provenance.seed));
   group.set_attribute("threads", std::int64_t{provenance.threads});
@@ -140,7 +147,7 @@ void TrajectoryWriter::write_frame(const TissueState& state, const FrameExtras& 
     cells.write(field.quantity.name, field.values, {field.quantity.unit, field.quantity.description});
   }
   std::vector<double> x, y;
-  for (const Eigen::Vector2d& point : extras.wound_outline) x.push_back(point.x()), y.push_back(point.y());
+  for (const Point& point : extras.wound_outline) x.push_back(point.x), y.push_back(point.y);
   const std::array<std::span<const double>, 2> outline{x, y};
   group.write_table("wound_outline", outline, {"length", "boundary of the wound, counter-clockwise: x, y"});
   impl_->last_time = state.time;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace suture {
 
@@ -37,12 +38,22 @@ void CellPreconditioner::make_batches() {
     for (const int cell : batch.cell) batch.lead.push_back(batch.matrix.rows - tissue_->vertex_count(cell));
     batches_.push_back(std::move(batch));
   }
-  if (ring_size_ > 0) {
-    Batch ring;
-    ring.matrix.rows = ring_size_;
-    batches_.push_back(std::move(ring));
-  }
   for (Batch& batch : batches_) allocate(batch);
+  const int ring_size = std::exchange(ring_size_, 0);
+  set_ring_size(ring_size);
+}
+
+void CellPreconditioner::set_ring_size(int ring_size) {
+  if (ring_size_ > 0) {
+    batches_.pop_back();
+    buffers_.pop_back();
+  }
+  ring_size_ = ring_size;
+  if (ring_size == 0) return;
+  Batch ring;
+  ring.matrix.rows = ring_size;
+  allocate(ring);
+  batches_.push_back(std::move(ring));
 }
 
 void CellPreconditioner::allocate(Batch& batch) {

@@ -23,6 +23,8 @@ class CellPreconditioner {
   /// ring_size: 0 or at least 3.
   CellPreconditioner(const Tissue& tissue, const PaddedTissue& padded, int ring_size, const kernels::Table& kernel);
 
+  void set_ring_size(int ring_size);
+
   /// Factors at the linearisation held by `padded`, the contact factors and the extra terms' blocks.
   void set_up(double gamma, std::span<const kernels::ContactFactor> contacts, std::span<const PointBlock> extra);
   /// z = P^-1 r, on contiguous position vectors (all x, then all y). r and z may not alias.

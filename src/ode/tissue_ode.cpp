@@ -213,6 +213,13 @@ TissueOde::TissueOde(const Tissue& tissue, int ring_size, TissueOdeOptions optio
 TissueOde::~TissueOde() = default;
 
 const StateLayout& TissueOde::layout() const { return impl_->layout; }
+void TissueOde::replace_extra(int ring_size, std::vector<std::shared_ptr<const EnergyTerm>> extra) {
+  Impl& m = *impl_;
+  m.layout.ring = ring_size;
+  m.extra = std::move(extra);
+  m.position_psi.resize(m.layout.positions());
+  m.preconditioner.set_ring_size(ring_size);
+}
 int TissueOde::size() const { return impl_->layout.size(); }
 int TissueOde::position_count() const { return impl_->layout.positions(); }
 std::string TissueOde::refusal() const { return impl_->refusal; }

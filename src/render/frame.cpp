@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "render/tissue_drawing.hpp"
 #include "suture/errors.hpp"
+#include "suture/geometry/polygon.hpp"
 
 namespace suture {
 namespace {
@@ -23,8 +23,11 @@ CellField field_of(const TissueState& state, const FrameStyle& style) {
 // Wide enough for the cells, their membranes and whatever acts on them.
 View view_of(std::span<const StripPanel> panels) {
   if (panels.front().style.view) return *panels.front().style.view;
-  Eigen::Vector2d low(INFINITY, INFINITY), high(-INFINITY, -INFINITY);
-  const auto include = [&](const Eigen::Vector2d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); };
+  Point low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+  const auto include = [&](const Point& point) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  };
   for (const StripPanel& panel : panels) {
     const StateView view = panel.state.view();
     for (std::size_t i = 0; i < view.x.size(); ++i) include({view.x[i], view.y[i]});
@@ -32,7 +35,7 @@ View view_of(std::span<const StripPanel> panels) {
     for (const ForceArrow& force : panel.style.forces) include(force.point + force.vector);
   }
   const double margin = membrane_width(panels.front().state, panels.front().style);
-  return {.centre = 0.5 * (low + high), .half_width = 0.5 * (high - low).maxCoeff() + margin};
+  return {.centre = 0.5 * (low + high), .half_width = 0.5 * std::max(high.x - low.x, high.y - low.y) + margin};
 }
 
 std::string field_label(const CellField& field) {
@@ -57,7 +60,7 @@ ColourScale colours_of(std::span<const StripPanel> panels, std::span<const CellF
 std::string time_label(const StripPanel& panel) {
   if (!panel.style.caption.empty()) return panel.style.caption;
   const double time = panel.state.time - panel.style.time_origin;
-  return fmt::format("{:.1f} min  (t = {:.1f})", time * panel.style.scales.time_min, time);
+  return fmt::format("{:.1f} min  (t = {:.1f})", time * panel.style.scales.time_min(), time);
 }
 
 void require_drawable(std::span<const StripPanel> panels) {
@@ -76,7 +79,7 @@ Layout layout_for(double panel_size, bool colour_bar) {
   return {.font = font, .left = 0.6 * font, .header = 2.3 * font, .footer = 3.0 * font, .right = (colour_bar ? 7.6 : 0.6) * font};
 }
 
-void draw_header(cairo_t* context, const StripPanel& panel, const Box& box, const Layout& layout, const std::string& letter) {
+void draw_header(cairo_t* context, const StripPanel& panel, const PixelBox& box, const Layout& layout, const std::string& letter) {
   const double baseline = box.y - 0.7 * layout.font;
   double x = box.x + 0.4 * layout.font;
   set_colour(context, ink);
@@ -103,12 +106,12 @@ void draw_key(cairo_t* context, const std::string& text, const Colour& colour, b
   cairo_restore(context);
 }
 
-void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span<const Box> boxes, const Layout& layout,
+void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes, const Layout& layout,
                  double pixels_per_length) {
-  const Box &first = boxes.front(), &last = boxes.back();
+  const PixelBox &first = boxes.front(), &last = boxes.back();
   const double y = first.y + first.height + 0.6 * layout.font;
   draw_scale_bar(context, first.x + 0.4 * layout.font, y, 0.2 * first.width,
-                 pixels_per_length / panels.front().style.scales.length_um, layout.font);
+                 pixels_per_length / panels.front().style.scales.length_um(), layout.font);
   const auto any = [&](auto holds) { return std::any_of(panels.begin(), panels.end(), holds); };
   const double right = last.x + last.width - 0.4 * layout.font, baseline = y + 0.9 * layout.font;
   if (any([](const StripPanel& panel) { return !panel.state.purse_string.empty(); }))
@@ -118,13 +121,13 @@ void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span
 }
 
 // Panels side by side in the given boxes, which all have the same size.
-void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span<const Box> boxes, const Layout& layout) {
+void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes, const Layout& layout) {
   std::vector<CellField> fields;
   for (const StripPanel& panel : panels) fields.push_back(field_of(panel.state, panel.style));
   const ColourScale colours = colours_of(panels, fields);
   const View view = view_of(panels);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const Box& box = boxes[i];
+    const PixelBox& box = boxes[i];
     cairo_save(context);
     cairo_rectangle(context, box.x, box.y, box.width, box.height);
     cairo_clip(context);
@@ -133,8 +136,8 @@ void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span
     draw_header(context, panels[i], box, layout, panels.size() > 1 ? std::string(1, static_cast<char>('a' + i % 26)) : "");
   }
   draw_footer(context, panels, boxes, layout, project(view, boxes.front()).scale);
-  const Box& last = boxes.back();
-  const Box bar{last.x + last.width + layout.font, last.y + 0.15 * last.height, 1.1 * layout.font, 0.7 * last.height};
+  const PixelBox& last = boxes.back();
+  const PixelBox bar{last.x + last.width + layout.font, last.y + 0.15 * last.height, 1.1 * layout.font, 0.7 * last.height};
   if (panels.front().style.coloured) draw_colour_bar(context, colours, bar, layout.font);
 }
 
@@ -144,13 +147,8 @@ CellField shape_parameter_field(const TissueState& state) {
   CellField field{{"shape_parameter", "1", "shape parameter p\xc2\xb2/4\xcf\x80""a"}, {}};
   const StateView view = state.view();
   for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
-    double twice_area = 0.0, perimeter = 0.0;
-    for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v) {
-      const int w = state.tissue.next(v);
-      twice_area += view.x[v] * view.y[w] - view.x[w] * view.y[v];
-      perimeter += std::hypot(view.x[w] - view.x[v], view.y[w] - view.y[v]);
-    }
-    field.values.push_back(perimeter * perimeter / (2.0 * std::numbers::pi * twice_area));
+    const std::size_t first = state.tissue.first_vertex(cell), count = state.tissue.vertex_count(cell);
+    field.values.push_back(shape_parameter(view.x.subspan(first, count), view.y.subspan(first, count)));
   }
   return field;
 }
@@ -160,7 +158,7 @@ void render_frame(const TissueState& state, const FrameStyle& style, const std::
   require_drawable({&panel, 1});
   Canvas canvas(path, style.width, style.height);
   const Layout layout = layout_for(std::min(style.width, style.height), style.coloured);
-  const Box box{layout.left, layout.header, style.width - layout.left - layout.right, style.height - layout.header - layout.footer};
+  const PixelBox box{layout.left, layout.header, style.width - layout.left - layout.right, style.height - layout.header - layout.footer};
   draw_figure(canvas.context(), {&panel, 1}, {&box, 1}, layout);
   canvas.finish();
 }
@@ -169,7 +167,7 @@ void render_strip(std::span<const StripPanel> panels, int panel_size, const std:
   require_drawable(panels);
   const Layout layout = layout_for(panel_size, panels.front().style.coloured);
   const double gap = layout.font;
-  std::vector<Box> boxes;
+  std::vector<PixelBox> boxes;
   for (std::size_t i = 0; i < panels.size(); ++i)
     boxes.push_back({layout.left + static_cast<double>(i) * (panel_size + gap), layout.header, 1.0 * panel_size, 1.0 * panel_size});
   const double width = boxes.back().x + panel_size + layout.right;
@@ -181,8 +179,8 @@ void render_strip(std::span<const StripPanel> panels, int panel_size, const std:
 void render_cell_experiment(std::span<const StripPanel> panels, int panel_size, const std::filesystem::path& path) {
   require_drawable(panels);
   const StateView first = panels.front().state.view();
-  std::vector<Eigen::Vector2d> initial;
-  for (int v = 0; v < panels.front().state.tissue.end_vertex(0); ++v) initial.emplace_back(first.x[v], first.y[v]);
+  std::vector<Point> initial;
+  for (int v = 0; v < panels.front().state.tissue.end_vertex(0); ++v) initial.push_back({first.x[v], first.y[v]});
   std::vector<StripPanel> captioned(panels.begin(), panels.end());
   for (std::size_t i = 0; i < captioned.size(); ++i) {
     StripPanel& panel = captioned[i];

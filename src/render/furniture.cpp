@@ -32,7 +32,7 @@ std::vector<double> round_ticks(double minimum, double maximum, int count) {
   return ticks;
 }
 
-void draw_colour_bar(cairo_t* context, const ColourScale& scale, const Box& box, double font_size) {
+void draw_colour_bar(cairo_t* context, const ColourScale& scale, const PixelBox& box, double font_size) {
   // Strips overlap by a pixel so that no seam shows when the viewer antialiases them.
   const int strips = std::max(2, static_cast<int>(box.height / 2.0));
   for (int i = 0; i < strips; ++i) {

@@ -20,7 +20,8 @@ struct ColourScale {
   Colour at(double value) const;
 };
 
-struct Box {
+/// A rectangle of the picture, in pixels; y points down.
+struct PixelBox {
   double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
 };
 
@@ -30,7 +31,7 @@ std::vector<double> round_ticks(double minimum, double maximum, int count);
 double round_down(double limit);
 
 /// Upright bar that fills `box`; ticks and label stand to its right.
-void draw_colour_bar(cairo_t* context, const ColourScale& scale, const Box& box, double font_size);
+void draw_colour_bar(cairo_t* context, const ColourScale& scale, const PixelBox& box, double font_size);
 /// Bar from (x, y) to the right, of a round length near wanted_pixels, with its length in um beneath.
 void draw_scale_bar(cairo_t* context, double x, double y, double wanted_pixels, double pixels_per_um, double font_size);
 

@@ -13,7 +13,10 @@ constexpr double edge_share = 0.22;    // of the membrane width that is drawn as
 constexpr double ring_share = 0.45;    // width of the purse string / membrane width
 constexpr double smallest_line = 1.2;  // pixels
 
-using Outline = std::vector<Eigen::Vector2d>;
+using Outline = std::vector<Point>;
+
+// Zero stays zero: two vertices in one place have no direction.
+Point unit_vector(Point a) { return norm(a) > 0.0 ? 1.0 / norm(a) * a : Point{}; }
 
 Outline cell_outline(const Tissue& tissue, const StateView& view, int cell, const Projection& projection) {
   Outline points;
@@ -24,7 +27,7 @@ Outline cell_outline(const Tissue& tissue, const StateView& view, int cell, cons
 
 void trace(cairo_t* context, const Outline& points) {
   cairo_new_path(context);
-  for (const Eigen::Vector2d& point : points) cairo_line_to(context, point.x(), point.y());
+  for (const Point& point : points) cairo_line_to(context, point.x, point.y);
   cairo_close_path(context);
 }
 
@@ -32,18 +35,14 @@ void trace(cairo_t* context, const Outline& points) {
 // segment, so very unequal segments (plastic membranes) cannot make it overshoot.
 void trace_smooth(cairo_t* context, const Outline& points) {
   const std::size_t n = points.size();
-  const auto tangent = [&](std::size_t i) -> Eigen::Vector2d {
-    const Eigen::Vector2d chord = points[(i + 1) % n] - points[(i + n - 1) % n];
-    const double length = chord.norm();
-    return length > 0.0 ? Eigen::Vector2d(chord / length) : Eigen::Vector2d(0.0, 0.0);
-  };
+  const auto tangent = [&](std::size_t i) { return unit_vector(points[(i + 1) % n] - points[(i + n - 1) % n]); };
   cairo_new_path(context);
-  cairo_move_to(context, points[0].x(), points[0].y());
+  cairo_move_to(context, points[0].x, points[0].y);
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d &from = points[i], &to = points[(i + 1) % n];
-    const double handle = (to - from).norm() / 3.0;
-    const Eigen::Vector2d first = from + handle * tangent(i), second = to - handle * tangent((i + 1) % n);
-    cairo_curve_to(context, first.x(), first.y(), second.x(), second.y(), to.x(), to.y());
+    const Point &from = points[i], &to = points[(i + 1) % n];
+    const double handle = norm(to - from) / 3.0;
+    const Point first = from + handle * tangent(i), second = to - handle * tangent((i + 1) % n);
+    cairo_curve_to(context, first.x, first.y, second.x, second.y, to.x, to.y);
   }
   cairo_close_path(context);
 }
@@ -82,16 +81,16 @@ void draw_purse_string(cairo_t* context, const TissueState& state, double width,
   cairo_set_line_width(context, 0.4 * line);
   for (std::size_t j = 0; j < ring.size(); ++j) {
     const int v = state.purse_string.vertex[j];
-    const Eigen::Vector2d cell_vertex = projection(view.x[v], view.y[v]);
-    cairo_move_to(context, ring[j].x(), ring[j].y());
-    cairo_line_to(context, cell_vertex.x(), cell_vertex.y());
+    const Point cell_vertex = projection(view.x[v], view.y[v]);
+    cairo_move_to(context, ring[j].x, ring[j].y);
+    cairo_line_to(context, cell_vertex.x, cell_vertex.y);
     cairo_stroke(context);
   }
   trace(context, ring);
   cairo_set_line_width(context, line);
   cairo_stroke(context);
-  for (const Eigen::Vector2d& point : ring) {
-    cairo_arc(context, point.x(), point.y(), 0.62 * line, 0.0, 2.0 * std::numbers::pi);
+  for (const Point& point : ring) {
+    cairo_arc(context, point.x, point.y, 0.62 * line, 0.0, 2.0 * std::numbers::pi);
     set_colour(context, {1.0, 1.0, 1.0});
     cairo_fill_preserve(context);
     set_colour(context, purse_string_colour);
@@ -101,13 +100,13 @@ void draw_purse_string(cairo_t* context, const TissueState& state, double width,
 }
 
 // The outer edge of the membrane whose centre line is given, as the cells show it.
-Outline outer_edge(const std::vector<Eigen::Vector2d>& centre_line, double width, const Projection& projection) {
+Outline outer_edge(const std::vector<Point>& centre_line, double width, const Projection& projection) {
   Outline edge;
   const std::size_t n = centre_line.size();
   for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector2d chord = (centre_line[(i + 1) % n] - centre_line[(i + n - 1) % n]).normalized();
-    const Eigen::Vector2d outward(chord.y(), chord.x());  // of a counter-clockwise outline, in the picture's axes
-    edge.push_back(projection(centre_line[i].x(), centre_line[i].y()) + 0.5 * width * outward);
+    const Point chord = unit_vector(centre_line[(i + 1) % n] - centre_line[(i + n - 1) % n]);
+    const Point outward{chord.y, chord.x};  // of a counter-clockwise outline, in the picture's axes
+    edge.push_back(projection(centre_line[i].x, centre_line[i].y) + 0.5 * width * outward);
   }
   return edge;
 }
@@ -127,16 +126,16 @@ void draw_ghosts(cairo_t* context, const FrameStyle& style, double width, const 
 
 void draw_plates(cairo_t* context, const FrameStyle& style, double width, const Projection& projection) {
   for (const Plate& plate : style.plates) {
-    const Eigen::Vector2d from = projection(plate.from.x(), plate.from.y()), to = projection(plate.to.x(), plate.to.y());
-    const Eigen::Vector2d along = (to - from).normalized(), left(along.y(), -along.x());
+    const Point from = projection(plate.from.x, plate.from.y), to = projection(plate.to.x, plate.to.y);
+    const Point along = unit_vector(to - from), left{along.y, -along.x};
     const double depth = 1.4 * width;
     set_colour(context, obstacle, 0.25);
     trace(context, {from, to, to + depth * left, from + depth * left});
     cairo_fill(context);
     set_colour(context, obstacle);
     cairo_set_line_width(context, std::max(0.3 * width, smallest_line));
-    cairo_move_to(context, from.x(), from.y());
-    cairo_line_to(context, to.x(), to.y());
+    cairo_move_to(context, from.x, from.y);
+    cairo_line_to(context, to.x, to.y);
     cairo_stroke(context);
   }
 }
@@ -144,14 +143,14 @@ void draw_plates(cairo_t* context, const FrameStyle& style, double width, const 
 void draw_forces(cairo_t* context, const FrameStyle& style, double width, const Projection& projection) {
   set_colour(context, purse_string_colour);
   for (const ForceArrow& force : style.forces) {
-    const Eigen::Vector2d tail = projection(force.point.x(), force.point.y());
-    const Eigen::Vector2d tip = projection(force.point.x() + force.vector.x(), force.point.y() + force.vector.y());
-    if (tail == tip) continue;
-    const Eigen::Vector2d along = (tip - tail).normalized(), side(-along.y(), along.x());
-    const double head = std::min(0.8 * width, 0.6 * (tip - tail).norm());
+    const Point tail = projection(force.point.x, force.point.y);
+    const Point tip = projection(force.point.x + force.vector.x, force.point.y + force.vector.y);
+    const Point along = unit_vector(tip - tail), side = left_normal(along);
+    const double head = std::min(0.8 * width, 0.6 * norm(tip - tail));
     cairo_set_line_width(context, std::max(0.2 * width, smallest_line));
-    cairo_move_to(context, tail.x(), tail.y());
-    cairo_line_to(context, (tip - 0.8 * head * along).x(), (tip - 0.8 * head * along).y());
+    cairo_move_to(context, tail.x, tail.y);
+    const Point neck = tip - 0.8 * head * along;
+    cairo_line_to(context, neck.x, neck.y);
     cairo_stroke(context);
     trace(context, {tip, tip - head * along + 0.45 * head * side, tip - head * along - 0.45 * head * side});
     cairo_fill(context);
@@ -161,7 +160,7 @@ void draw_forces(cairo_t* context, const FrameStyle& style, double width, const 
 void draw_wound(cairo_t* context, const FrameStyle& style, const Projection& projection) {
   if (style.wound_outline.size() < 3) return;
   Outline points;
-  for (const Eigen::Vector2d& point : style.wound_outline) points.push_back(projection(point.x(), point.y()));
+  for (const Point& point : style.wound_outline) points.push_back(projection(point.x, point.y));
   trace(context, points);
   set_colour(context, wound_colour);
   cairo_fill(context);
@@ -169,7 +168,7 @@ void draw_wound(cairo_t* context, const FrameStyle& style, const Projection& pro
 
 }  // namespace
 
-Projection project(const View& view, const Box& box) {
+Projection project(const View& view, const PixelBox& box) {
   return {.scale = 0.5 * std::min(box.width, box.height) / view.half_width,
           .origin = view.centre,
           .anchor = {box.x + 0.5 * box.width, box.y + 0.5 * box.height}};

@@ -9,15 +9,15 @@ namespace suture {
 /// Model plane to picture: y points down there.
 struct Projection {
   double scale = 1.0;  ///< pixels per model length
-  Eigen::Vector2d origin{0.0, 0.0};  ///< model point shown at pixel `anchor`
-  Eigen::Vector2d anchor{0.0, 0.0};
-  Eigen::Vector2d operator()(double x, double y) const {
-    return {anchor.x() + scale * (x - origin.x()), anchor.y() - scale * (y - origin.y())};
+  Point origin{0.0, 0.0};  ///< model point shown at pixel `anchor`
+  Point anchor{0.0, 0.0};
+  Point operator()(double x, double y) const {
+    return {anchor.x + scale * (x - origin.x), anchor.y - scale * (y - origin.y)};
   }
 };
 
 /// Shows `view` in the middle of `box`.
-Projection project(const View& view, const Box& box);
+Projection project(const View& view, const PixelBox& box);
 
 /// s, which the membrane is drawn as wide as.
 double membrane_width(const TissueState& state, const FrameStyle& style);

@@ -53,6 +53,9 @@ class Integrator {
   virtual Statistics statistics() const = 0;
 };
 
+/// What [integrator] asks for, in model units; `rest_length` is the mean l0(0) its tolerances refer to.
+IntegratorOptions integrator_options(const Config& config, double rest_length);
+
 /// Creates the integrator `options.method` names, started at (t, y). The system must outlive it.
 std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const IntegratorOptions& options, double t,
                                             std::span<const double> y);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "suture/integrate/integrator.hpp"
-#include "suture/io/provenance.hpp"
+#include "suture/model/parameters.hpp"
 
 namespace suture {
 
@@ -37,7 +37,7 @@ struct RunSummary {
   EventCounts events;
   Statistics solver;
   std::map<std::string, double> wall_s;  ///< seconds by stage
-  OutputScales scales{};
+  UnitParameters units;
 };
 
 /// JSON text, indented. Each dimensional result appears twice: in model units, and in um and min under a key that ends

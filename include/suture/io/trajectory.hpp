@@ -6,15 +6,17 @@
 // on a full disk; the price is memory for the whole trajectory and one rewrite of the file per commit.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
+#include "suture/geometry/point.hpp"
 #include "suture/io/provenance.hpp"
 #include "suture/io/summary.hpp"
 #include "suture/model/state.hpp"
@@ -37,7 +39,7 @@ struct CellField {
 /// What a frame holds besides the state.
 struct FrameExtras {
   std::vector<CellField> cell_fields;
-  std::vector<Eigen::Vector2d> wound_outline;  ///< counter-clockwise; may be empty
+  std::vector<Point> wound_outline;  ///< counter-clockwise; may be empty
 };
 
 /// A discrete event of the hybrid system: "yield", "capture", "slip", "exchange", "closure", ... (at most 31 letters).

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "suture/io/provenance.hpp"
+#include "suture/io/units.hpp"
 
 namespace suture {
 
@@ -24,9 +24,9 @@ struct WoundSample {
 
 /// CSV text with one header line; numbers are the shortest that read back to the same double. wound_area_fraction is
 /// relative to the largest area among the samples.
-std::string to_csv(std::span<const WoundSample> samples, const OutputScales& scales);
+std::string to_csv(std::span<const WoundSample> samples, const UnitScales& scales);
 
 /// Writes the file so that either the old or the new one is there, whole. Throws FileError.
-void write_wound_csv(std::span<const WoundSample> samples, const OutputScales& scales, const std::filesystem::path& path);
+void write_wound_csv(std::span<const WoundSample> samples, const UnitScales& scales, const std::filesystem::path& path);
 
 }  // namespace suture

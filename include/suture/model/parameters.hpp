@@ -110,6 +110,7 @@ struct PurseStringParameters {
   double yield_length = 2.0;           ///< l_y, in units of s
   CaptureLaw capture_law = CaptureLaw::split;
   bool capture = true;
+  int crevice_depth = 1;               ///< vertices the string follows each cell into a crevice, beyond the exposed ones
   EventHandling event_handling = EventHandling::automatic;
   double event_interval = 0.05;
   bool operator==(const PurseStringParameters&) const = default;
@@ -117,7 +118,7 @@ struct PurseStringParameters {
 
 struct PackingParameters {
   double initial_fraction = 0.78;
-  double final_fraction = 0.99;
+  double final_fraction = 0.985;
   double increment = 0.005;
   double adhesion = 0.0;           ///< l1 while compressing
   double area_stiffness = 16.0;    ///< k_a while compressing

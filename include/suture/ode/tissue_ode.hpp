@@ -30,6 +30,8 @@ class TissueOde final : public GradientFlowSystem {
   ~TissueOde() override;
 
   const StateLayout& layout() const;
+  /// Replaces the extra terms and the number of ring points; keeps the cells, their arrays and the contact list.
+  void replace_extra(int ring_size, std::vector<std::shared_ptr<const EnergyTerm>> extra);
 
   /// dU/dr of everything, into gradient.x and gradient.y (overwritten). Used by FIRE and velocity Verlet too.
   Evaluation gradient(double t, const StateView& state, MutableStateView gradient);

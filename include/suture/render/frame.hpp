@@ -2,37 +2,37 @@
 // chooses the format: .png, .svg or .pdf. All lengths and times that go in are in model units.
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "suture/io/provenance.hpp"
+#include "suture/geometry/point.hpp"
 #include "suture/io/trajectory.hpp"
+#include "suture/io/units.hpp"
 #include "suture/model/state.hpp"
 
 namespace suture {
 
 /// Part of the plane that is shown: a square.
 struct View {
-  Eigen::Vector2d centre{0.0, 0.0};
+  Point centre{0.0, 0.0};
   double half_width = 1.0;
 };
 
 /// A straight obstacle from `from` to `to`; the hatching shows on its left.
 struct Plate {
-  Eigen::Vector2d from, to;
+  Point from, to;
 };
 
 /// An arrow at `point`, of length and direction `vector`.
 struct ForceArrow {
-  Eigen::Vector2d point, vector;
+  Point point, vector;
 };
 
 struct FrameStyle {
-  OutputScales scales;  ///< for the scale bar and the time label
+  UnitScales scales;  ///< for the scale bar and the time label
   int width = 1000;     ///< pixels, of render_frame
   int height = 1000;
   std::optional<CellField> field;                 ///< that colours the cells; unset: the shape parameter p^2/(4 pi a)
@@ -41,10 +41,10 @@ struct FrameStyle {
   std::optional<double> membrane_width;           ///< s; unset: the mean initial rest length
   std::optional<View> view;                       ///< unset: the whole tissue
   double time_origin = 0.0;                       ///< time that the label calls zero
-  std::vector<Eigen::Vector2d> wound_outline;     ///< shaded when given
+  std::vector<Point> wound_outline;     ///< shaded when given
   std::optional<double> wound_fraction;           ///< of its maximum, for the label
   std::string caption;                            ///< replaces the time label when not empty
-  std::vector<std::vector<Eigen::Vector2d>> ghosts;  ///< closed outlines drawn dashed, e.g. the shape before loading
+  std::vector<std::vector<Point>> ghosts;  ///< closed outlines drawn dashed, e.g. the shape before loading
   std::vector<Plate> plates;
   std::vector<ForceArrow> forces;
 };

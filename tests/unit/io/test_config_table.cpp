@@ -1,13 +1,16 @@
 // Properties that every row of the configuration table must have; a new key is tested by being in the table.
-#include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
+#include <map>
+#include <regex>
 #include <set>
 
-#include "suture/io/config_key.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
+#include "suture/io/config_key.hpp"
 
 using namespace suture;
 
@@ -61,6 +64,33 @@ TEST_CASE("every key has a name of its own, a section and a documentation", "[un
   CHECK(paths.size() > 70);
 }
 
+TEST_CASE("every field of the parameter structs has a row", "[unit]") {
+  std::set<std::string> known;
+  for (const auto& key : config_keys()) known.insert(key.path());
+  std::ifstream header{SUTURE_SOURCE_DIR "/include/suture/model/parameters.hpp"};
+  REQUIRE(header);
+  const std::regex structure{R"(^struct (\w+)Parameters \{)"};
+  const std::regex field{R"(^  [\w:<>]+ (\w+?)(_um2|_nN|_um_per_s)?( = [^;]*)?;)"};
+  const std::map<std::string, std::string> irregular{{"PurseString", "purse_string"}, {"Unit", "units"}};
+  std::string section;
+  int checked = 0;
+  for (std::string line; std::getline(header, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, structure)) {
+      section = match[1];
+      const auto found = irregular.find(section);
+      section = found != irregular.end() ? found->second : std::string(1, std::tolower(section[0])) + section.substr(1);
+    } else if (line == "};") {
+      section.clear();
+    } else if (!section.empty() && std::regex_search(line, match, field)) {
+      INFO(line);
+      CHECK(known.contains(section + "." + match[1].str()));
+      ++checked;
+    }
+  }
+  CHECK(checked == static_cast<int>(known.size()) - 1);  // all but preset
+}
+
 TEST_CASE("keys that other tools use exist", "[unit]") {
   for (const char* key : {"area.stiffness", "membrane.stiffness", "membrane.law", "bending.stiffness", "plasticity.tau",
                           "plasticity.memory", "purse_string.tether_law", "tissue.seed", "tissue.cells",
@@ -87,9 +117,8 @@ TEST_CASE("every key refuses wrong types and values outside its range", "[unit]"
   int checked = 0;
   for (const auto& key : config_keys())
     for (const std::string& value : refused_values(key, key.slot(defaults))) {
-      const std::string text = key.section.empty()
-                                   ? std::string{key.name} + " = " + value
-                                   : fmt::format("[{}]\n{} = {}", key.section, key.name, value);
+      const std::string text = key.section.empty() ? std::string{key.name} + " = " + value
+                                                   : fmt::format("[{}]\n{} = {}", key.section, key.name, value);
       INFO(text);
       CHECK_THROWS_AS(parse_config(text, "test.toml"), InputError);
       ++checked;
@@ -105,10 +134,10 @@ TEST_CASE("every word of every key is accepted and written back in its first spe
       const std::string override_text = key.path() + "=" + std::string{choice.name};
       INFO(override_text);
       // These words need company: a chain law that divides by lambda_min, protocols of one cell.
-      const Config config = parse_config("", "test.toml",
-                                         {"purse_string.minimum_rest_length=0.01", "tissue.cells=1",
-                                          "run.last_stage=packing", override_text,
-                                          key.path() == "run.last_stage" ? "tissue.cells=50" : "tissue.vertices=30"});
+      const Config config =
+          parse_config("", "test.toml",
+                       {"purse_string.minimum_rest_length=0.01", "tissue.cells=1", "run.last_stage=packing",
+                        override_text, key.path() == "run.last_stage" ? "tissue.cells=50" : "tissue.vertices=30"});
       Config copy = config;
       const Slot slot = key.slot(copy);
       REQUIRE(std::holds_alternative<ChoiceSlot>(slot));

@@ -7,8 +7,10 @@
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
 #include "suture/io/trajectory_check.hpp"
+#include "suture/version.hpp"
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
 #include "support/sample_tissue.hpp"
-#include "support/scratch_folder.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -58,7 +60,7 @@ Provenance sample_provenance() {
           .threads = 2,
           .position_tolerance = 1e-3,
           .rest_length_tolerance = 1e-4,
-          .scales = {.length_um = 5.0, .time_min = 16.6667 / 60.0}};
+          .units = {.rest_area_um2 = 16.1, .unsticking_force_nN = 1.0 / 3.0, .constriction_rate_um_per_s = 0.31}};
 }
 
 const Quantity wound_area{"wound_area", "area", "area of the wound"};
@@ -95,9 +97,9 @@ void write_sample(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
-  const ScratchFolder folder;
-  write_sample(folder / "run.h5");
-  const Trajectory trajectory = read_trajectory(folder / "run.h5");
+  const TemporaryDirectory folder;
+  write_sample(folder.path() / "run.h5");
+  const Trajectory trajectory = read_trajectory(folder.path() / "run.h5");
 
   CHECK(trajectory.complete);
   REQUIRE(trajectory.frames.size() == 3);
@@ -110,7 +112,7 @@ TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
   TissueState last = original;
   last.time = 41.0;
   check_same_state(trajectory.stages.at(Stage::closure), last);
-  const auto [stage, state] = read_last_stage(folder / "run.h5");
+  const auto [stage, state] = read_last_stage(folder.path() / "run.h5");
   CHECK(stage == Stage::closure);
   check_same_state(state, last);
 
@@ -119,7 +121,7 @@ TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
   CHECK(extras.cell_fields[0].quantity.name == "shape_parameter");
   CHECK(extras.cell_fields[0].quantity.description == "p^2/(4 pi a)");
   REQUIRE(extras.wound_outline.size() == 3);
-  CHECK(extras.wound_outline[2].y() == 1.0 / 3.0);
+  CHECK(extras.wound_outline[2].y == 1.0 / 3.0);
 
   const Series* const series = trajectory.observable("wound_area");
   REQUIRE(series != nullptr);
@@ -134,9 +136,9 @@ TEST_CASE("a trajectory reads back bit for bit", "[unit]") {
 }
 
 TEST_CASE("a trajectory carries its provenance", "[unit]") {
-  const ScratchFolder folder;
-  write_sample(folder / "run.h5");
-  const Trajectory trajectory = read_trajectory(folder / "run.h5");
+  const TemporaryDirectory folder;
+  write_sample(folder.path() / "run.h5");
+  const Trajectory trajectory = read_trajectory(folder.path() / "run.h5");
   const Provenance expected = sample_provenance(), &found = trajectory.provenance;
   CHECK(found.config_text == expected.config_text);
   CHECK(found.resolved_config == expected.resolved_config);
@@ -146,16 +148,17 @@ TEST_CASE("a trajectory carries its provenance", "[unit]") {
   CHECK(found.threads == 2);
   CHECK(found.position_tolerance == 1e-3);
   CHECK(found.rest_length_tolerance == 1e-4);
-  CHECK(found.scales.length_um == 5.0);
-  CHECK(found.scales.time_min == expected.scales.time_min);
+  CHECK(found.units.rest_area_um2 == expected.units.rest_area_um2);
+  CHECK(found.units.unsticking_force_nN == expected.units.unsticking_force_nN);
+  CHECK(found.units.constriction_rate_um_per_s == expected.units.constriction_rate_um_per_s);
   CHECK(trajectory.code_version == build_information().version);
   CHECK(!trajectory.code_commit.empty());
 }
 
 TEST_CASE("a committed file is whole and says that it is unfinished", "[unit]") {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   {
-    TrajectoryWriter writer(folder / "run.h5", sample_provenance());
+    TrajectoryWriter writer(folder.path() / "run.h5", sample_provenance());
     writer.write_frame(sample_tissue());
     CHECK(std::filesystem::is_empty(folder.path()));
     writer.commit();
@@ -164,10 +167,10 @@ TEST_CASE("a committed file is whole and says that it is unfinished", "[unit]") 
     writer.write_frame(later);
     writer.record(wound_area, 1.0, 2.0);
   }  // stopped without close(): what came after the commit is lost, what came before is not
-  const Trajectory trajectory = read_trajectory(folder / "run.h5");
+  const Trajectory trajectory = read_trajectory(folder.path() / "run.h5");
   CHECK(!trajectory.complete);
   CHECK(trajectory.frames.size() == 1);
-  const FileReport report = check_file(folder / "run.h5");
+  const FileReport report = check_file(folder.path() / "run.h5");
   CHECK(report.verdict == FileVerdict::invalid);
   REQUIRE(report.problems.size() == 1);
   CHECK_THAT(report.problems[0], Contains("did not finish"));
@@ -175,8 +178,8 @@ TEST_CASE("a committed file is whole and says that it is unfinished", "[unit]") 
 }
 
 TEST_CASE("a writer refuses frames that do not belong together", "[unit]") {
-  const ScratchFolder folder;
-  TrajectoryWriter writer(folder / "run.h5", sample_provenance());
+  const TemporaryDirectory folder;
+  TrajectoryWriter writer(folder.path() / "run.h5", sample_provenance());
   TissueState state = sample_tissue();
   writer.write_frame(state);
   CHECK_THROWS_AS(writer.write_frame(state), FileError);  // same time
@@ -190,55 +193,55 @@ TEST_CASE("a writer refuses frames that do not belong together", "[unit]") {
 }
 
 TEST_CASE("a folder that does not exist is reported by name and leaves nothing behind", "[unit]") {
-  const ScratchFolder folder;
-  TrajectoryWriter writer(folder / "missing" / "run.h5", sample_provenance());
+  const TemporaryDirectory folder;
+  TrajectoryWriter writer(folder.path() / "missing" / "run.h5", sample_provenance());
   CHECK_THROWS_WITH(writer.close(), Contains("missing/run.h5") && Contains("No such file"));
-  std::filesystem::create_directory(folder / "missing");
+  std::filesystem::create_directory(folder.path() / "missing");
   writer.close();  // the failure cost nothing: the trajectory is still in memory
-  CHECK(read_trajectory(folder / "missing" / "run.h5").complete);
+  CHECK(read_trajectory(folder.path() / "missing" / "run.h5").complete);
 }
 
 TEST_CASE("files that are not trajectories are refused with the reason", "[unit]") {
-  const ScratchFolder folder;
-  CHECK_THROWS_WITH(read_trajectory(folder / "absent.h5"), Contains("absent.h5"));
-  CHECK_THROWS_AS(read_trajectory(folder / "absent.h5"), InputError);
-  write_bytes(folder / "text.h5", "this is no HDF5 file");
-  CHECK_THROWS_WITH(read_trajectory(folder / "text.h5"), Contains("cannot be opened as an HDF5 file"));
-  CHECK(check_file(folder / "text.h5").verdict == FileVerdict::unreadable);
-  CHECK(check_file(folder / "absent.h5").verdict == FileVerdict::unreadable);
+  const TemporaryDirectory folder;
+  CHECK_THROWS_WITH(read_trajectory(folder.path() / "absent.h5"), Contains("absent.h5"));
+  CHECK_THROWS_AS(read_trajectory(folder.path() / "absent.h5"), InputError);
+  write_bytes(folder.path() / "text.h5", "this is no HDF5 file");
+  CHECK_THROWS_WITH(read_trajectory(folder.path() / "text.h5"), Contains("cannot be opened as an HDF5 file"));
+  CHECK(check_file(folder.path() / "text.h5").verdict == FileVerdict::unreadable);
+  CHECK(check_file(folder.path() / "absent.h5").verdict == FileVerdict::unreadable);
   CHECK(check_file(folder.path()).verdict == FileVerdict::unreadable);
-  write_bytes(folder / "empty.h5", "");
-  CHECK(check_file(folder / "empty.h5").verdict == FileVerdict::unreadable);
+  write_bytes(folder.path() / "empty.h5", "");
+  CHECK(check_file(folder.path() / "empty.h5").verdict == FileVerdict::unreadable);
 
-  write_sample(folder / "run.h5");
-  std::string bytes = read_bytes(folder / "run.h5");
-  write_bytes(folder / "truncated.h5", bytes.substr(0, bytes.size() / 2));
-  CHECK_THROWS_WITH(read_trajectory(folder / "truncated.h5"), Contains("truncated.h5") && Contains("truncated file"));
-  CHECK(check_file(folder / "truncated.h5").verdict == FileVerdict::unreadable);
+  write_sample(folder.path() / "run.h5");
+  std::string bytes = read_bytes(folder.path() / "run.h5");
+  write_bytes(folder.path() / "truncated.h5", bytes.substr(0, bytes.size() / 2));
+  CHECK_THROWS_WITH(read_trajectory(folder.path() / "truncated.h5"), Contains("truncated.h5") && Contains("truncated file"));
+  CHECK(check_file(folder.path() / "truncated.h5").verdict == FileVerdict::unreadable);
 
   const std::size_t schema = bytes.find("suture-trajectory");
   REQUIRE(schema != std::string::npos);
   bytes[schema] = 'S';
-  write_bytes(folder / "foreign.h5", bytes);
-  CHECK_THROWS_WITH(read_trajectory(folder / "foreign.h5"), Contains("not a suture trajectory"));
-  CHECK(check_file(folder / "foreign.h5").verdict == FileVerdict::unreadable);
+  write_bytes(folder.path() / "foreign.h5", bytes);
+  CHECK_THROWS_WITH(read_trajectory(folder.path() / "foreign.h5"), Contains("not a suture trajectory"));
+  CHECK(check_file(folder.path() / "foreign.h5").verdict == FileVerdict::unreadable);
 }
 
 TEST_CASE("damage in single bytes is refused or harmless, never a crash", "[unit]") {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   {
-    TrajectoryWriter writer(folder / "run.h5", sample_provenance());
+    TrajectoryWriter writer(folder.path() / "run.h5", sample_provenance());
     writer.write_frame(sample_tissue(1));
     writer.close();
   }
-  const std::string bytes = read_bytes(folder / "run.h5");
+  const std::string bytes = read_bytes(folder.path() / "run.h5");
   int refused = 0, accepted = 0;
   for (std::size_t position = 0; position < bytes.size(); position += 997) {
     std::string damaged = bytes;
     damaged[position] = static_cast<char>(~damaged[position]);
-    write_bytes(folder / "damaged.h5", damaged);
+    write_bytes(folder.path() / "damaged.h5", damaged);
     try {
-      read_trajectory(folder / "damaged.h5");
+      read_trajectory(folder.path() / "damaged.h5");
       ++accepted;
     } catch (const InputError&) {
       ++refused;
@@ -249,19 +252,19 @@ TEST_CASE("damage in single bytes is refused or harmless, never a crash", "[unit
 }
 
 TEST_CASE("check accepts a good trajectory and names what is wrong with a bad one", "[unit]") {
-  const ScratchFolder folder;
-  write_sample(folder / "run.h5");
-  const FileReport good = check_file(folder / "run.h5");
+  const TemporaryDirectory folder;
+  write_sample(folder.path() / "run.h5");
+  const FileReport good = check_file(folder.path() / "run.h5");
   CHECK(good.verdict == FileVerdict::valid);
   CHECK(good.problems.empty());
   CHECK_THAT(good.content, Contains("18 cells, 3 frames, 2 stages, 1 observables, 2 events"));
 
   const auto problem_of = [&](const TissueState& state, double observed) {
-    TrajectoryWriter writer(folder / "bad.h5", sample_provenance());
+    TrajectoryWriter writer(folder.path() / "bad.h5", sample_provenance());
     writer.write_frame(state);
     writer.record(wound_area, 0.0, observed);
     writer.close();
-    const FileReport report = check_file(folder / "bad.h5");
+    const FileReport report = check_file(folder.path() / "bad.h5");
     CHECK(report.verdict == FileVerdict::invalid);
     REQUIRE(!report.problems.empty());
     return report.problems.front();

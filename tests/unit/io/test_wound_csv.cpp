@@ -6,14 +6,15 @@
 
 #include "suture/io/trajectory_check.hpp"
 #include "suture/io/wound_csv.hpp"
-#include "support/scratch_folder.hpp"
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
 
 using namespace suture;
 using namespace suture::test;
 
 namespace {
 
-constexpr OutputScales scales{.length_um = 5.0, .time_min = 0.25};
+const UnitScales scales(UnitParameters{.rest_area_um2 = 25.0, .constriction_rate_um_per_s = 0.3125});
 
 std::vector<std::vector<std::string>> table(const std::string& text) {
   std::vector<std::vector<std::string>> rows;
@@ -45,7 +46,7 @@ TEST_CASE("wound.csv has a header, full precision and empty fields for what is u
                                             "shortest_segment", "energy"});
   for (const auto& row : rows) CHECK(row.size() == rows[0].size());
   CHECK(rows[1][0] == "0.1");
-  CHECK(rows[1][1] == "0.025");
+  CHECK(std::strtod(rows[1][1].c_str(), nullptr) == Approx(0.1 * 16.0 / 60.0));
   CHECK(rows[1][3] == "100");
   CHECK(rows[1][4] == "0.8");
   CHECK(std::strtod(rows[1][5].c_str(), nullptr) == 1.0 / 3.0);
@@ -58,8 +59,8 @@ TEST_CASE("wound.csv has a header, full precision and empty fields for what is u
 }
 
 TEST_CASE("wound.csv can be checked", "[unit]") {
-  const ScratchFolder folder;
-  const auto path = folder / "wound.csv";
+  const TemporaryDirectory folder;
+  const auto path = folder.path() / "wound.csv";
   write_wound_csv(samples, scales, path);
   CHECK(check_file(path).verdict == FileVerdict::valid);
   CHECK(check_file(path).content == "wound table: 3 samples");

@@ -7,8 +7,9 @@
 
 #include "suture/errors.hpp"
 #include "suture/render/frame.hpp"
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
 #include "support/sample_tissue.hpp"
-#include "support/scratch_folder.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -16,7 +17,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr OutputScales scales{.length_um = 5.0, .time_min = 0.25};
+const UnitScales scales{UnitParameters{}};
 
 int big_endian(const std::string& bytes, std::size_t at) {
   int value = 0;
@@ -64,9 +65,9 @@ TEST_CASE("the well-formedness check of these tests can fail", "[unit]") {
 }
 
 TEST_CASE("a frame becomes a PNG of the asked size", "[unit]") {
-  const ScratchFolder folder;
-  render_frame(sample_tissue(), sample_style(), folder / "frame.png");
-  const std::string bytes = read_bytes(folder / "frame.png");
+  const TemporaryDirectory folder;
+  render_frame(sample_tissue(), sample_style(), folder.path() / "frame.png");
+  const std::string bytes = read_bytes(folder.path() / "frame.png");
   REQUIRE(bytes.size() > 5000);
   CHECK(bytes.substr(0, 8) == "\x89PNG\r\n\x1a\n");
   CHECK(big_endian(bytes, 16) == 400);
@@ -76,22 +77,22 @@ TEST_CASE("a frame becomes a PNG of the asked size", "[unit]") {
 }
 
 TEST_CASE("a frame becomes a well-formed SVG, and a PDF", "[unit]") {
-  const ScratchFolder folder;
-  render_frame(sample_tissue(), sample_style(), folder / "frame.svg");
-  const std::string text = read_bytes(folder / "frame.svg");
+  const TemporaryDirectory folder;
+  render_frame(sample_tissue(), sample_style(), folder.path() / "frame.svg");
+  const std::string text = read_bytes(folder.path() / "frame.svg");
   CHECK(text.starts_with("<?xml"));
   CHECK_THAT(text, Contains("width=\"400") && Contains("height=\"300"));
   CHECK(tags_balance(text));
-  render_frame(sample_tissue(), sample_style(), folder / "frame.pdf");
-  CHECK(read_bytes(folder / "frame.pdf").starts_with("%PDF-"));
+  render_frame(sample_tissue(), sample_style(), folder.path() / "frame.pdf");
+  CHECK(read_bytes(folder.path() / "frame.pdf").starts_with("%PDF-"));
 }
 
 TEST_CASE("what is drawn depends on the state and the style", "[unit]") {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   std::set<std::string> pictures;
   const auto draw = [&](const TissueState& state, const FrameStyle& style) {
-    render_frame(state, style, folder / "frame.png");
-    pictures.insert(read_bytes(folder / "frame.png"));
+    render_frame(state, style, folder.path() / "frame.png");
+    pictures.insert(read_bytes(folder.path() / "frame.png"));
   };
   TissueState state = sample_tissue();
   FrameStyle style = sample_style();
@@ -118,11 +119,11 @@ TEST_CASE("what is drawn depends on the state and the style", "[unit]") {
 }
 
 TEST_CASE("a strip holds its panels side by side", "[unit]") {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   std::vector<StripPanel> panels(3, {sample_tissue(), sample_style()});
   panels[1].state.time = 50.0;
-  render_strip(panels, 200, folder / "strip.png");
-  const std::string bytes = read_bytes(folder / "strip.png");
+  render_strip(panels, 200, folder.path() / "strip.png");
+  const std::string bytes = read_bytes(folder.path() / "strip.png");
   CHECK(big_endian(bytes, 16) > 600);
   CHECK(big_endian(bytes, 16) < 800);
   CHECK(big_endian(bytes, 20) > 200);
@@ -130,14 +131,14 @@ TEST_CASE("a strip holds its panels side by side", "[unit]") {
 }
 
 TEST_CASE("a one-cell experiment shows the initial outline, plates and forces", "[unit]") {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   const TissueState tissue = sample_tissue(1);
   std::vector<StripPanel> panels(2, {tissue, FrameStyle{.scales = scales}});
-  render_cell_experiment(panels, 150, folder / "plain.svg");
+  render_cell_experiment(panels, 150, folder.path() / "plain.svg");
   panels[1].style.plates = {{{-1.0, 1.0}, {1.0, 1.0}}};
   panels[1].style.forces = {{{0.0, 0.0}, {0.3, 0.0}}};
-  render_cell_experiment(panels, 150, folder / "loaded.svg");
-  const std::string plain = read_bytes(folder / "plain.svg"), loaded = read_bytes(folder / "loaded.svg");
+  render_cell_experiment(panels, 150, folder.path() / "loaded.svg");
+  const std::string plain = read_bytes(folder.path() / "plain.svg"), loaded = read_bytes(folder.path() / "loaded.svg");
   CHECK(tags_balance(plain));
   CHECK_THAT(plain, Contains("stroke-dasharray"));
   CHECK(plain != loaded);
@@ -157,15 +158,15 @@ TEST_CASE("the shape parameter of a regular polygon is n/pi tan(pi/n)", "[unit]"
 }
 
 TEST_CASE("what cannot be drawn is refused", "[unit]") {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   FrameStyle style = sample_style();
-  CHECK_THROWS_WITH(render_frame(sample_tissue(), style, folder / "frame.bmp"), Contains(".png, .svg or .pdf"));
-  CHECK_THROWS_AS(render_frame(TissueState{}, style, folder / "frame.png"), InputError);
-  CHECK_THROWS_AS(render_strip({}, 200, folder / "frame.png"), InputError);
-  CHECK_THROWS_AS(render_frame(sample_tissue(), style, folder / "missing" / "frame.png"), FileError);
+  CHECK_THROWS_WITH(render_frame(sample_tissue(), style, folder.path() / "frame.bmp"), Contains(".png, .svg or .pdf"));
+  CHECK_THROWS_AS(render_frame(TissueState{}, style, folder.path() / "frame.png"), InputError);
+  CHECK_THROWS_AS(render_strip({}, 200, folder.path() / "frame.png"), InputError);
+  CHECK_THROWS_AS(render_frame(sample_tissue(), style, folder.path() / "missing" / "frame.png"), FileError);
   style.field = CellField{{"area", "area", ""}, {1.0}};
-  CHECK_THROWS_WITH(render_frame(sample_tissue(), style, folder / "frame.png"), Contains("1 values for 18 cells"));
+  CHECK_THROWS_WITH(render_frame(sample_tissue(), style, folder.path() / "frame.png"), Contains("1 values for 18 cells"));
   style.field.reset();
   style.width = -1;
-  CHECK_THROWS_AS(render_frame(sample_tissue(), style, folder / "frame.png"), InputError);
+  CHECK_THROWS_AS(render_frame(sample_tissue(), style, folder.path() / "frame.png"), InputError);
 }

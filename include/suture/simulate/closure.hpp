@@ -1,0 +1,56 @@
+// The closure stage: a wounded tissue with a purse string, integrated as a hybrid system until the wound is closed.
+//
+// Between events the ring and the modes of its tethers are fixed and the rate is smooth. Tether events are located by
+// root finding on the integrator's own interpolant while they are rare, and processed on the event grid once they storm;
+// captures are processed on the grid always, after a vertex has been seen exposed and before this instant's yields, so
+// that a tether that breaks is recaptured at the next grid time at the earliest and no instant can repeat for ever.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "suture/integrate/integrator.hpp"
+#include "suture/measure/wound.hpp"
+#include "suture/model/parameters.hpp"
+#include "suture/model/state.hpp"
+#include "suture/ode/purse_string_events.hpp"
+
+namespace suture {
+
+/// One sample of a running closure, at a multiple of output.interval.
+struct ClosureSample {
+  const TissueState& state;          ///< at the sample's time
+  const std::optional<Wound>& wound; ///< empty: no hole (any more)
+  double time = 0.0;                 ///< since the purse string started
+  double last_step = 0.0;
+  int last_order = 0;
+  Statistics statistics;             ///< so far
+};
+
+/// Watches a closure; cannot alter it.
+class ClosureObserver {
+ public:
+  virtual ~ClosureObserver() = default;
+  virtual void sample(const ClosureSample& sample) = 0;
+  virtual void event(const EventRecord& record) = 0;
+  /// Asked after every sample; true ends the stage early.
+  virtual bool stop() { return false; }
+};
+
+enum class ClosureStatus { closed, reached_end, stopped, opened };
+
+struct ClosureResult {
+  TissueState state;                 ///< at the end
+  ClosureStatus status = ClosureStatus::reached_end;
+  std::optional<double> t_closed;    ///< since the purse string started; when the area fell below run.closed_area
+  Statistics statistics;
+  long storms = 0;                   ///< times the events went from being located to the grid
+};
+
+/// Puts the purse string on the wound of `state` (unless purse_string.enabled is false) and integrates for run.end_time
+/// or until the wound is closed. state.time is kept as the simulation's clock. Throws NumericalError when there is no
+/// wound or the integration fails; `last_good` then holds the last consistent state.
+ClosureResult run_closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good);
+
+}  // namespace suture

@@ -1,0 +1,181 @@
+#include "suture/simulate/closure.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulate/closure_events.hpp"
+#include "suture/errors.hpp"
+#include "suture/ode/tissue_ode.hpp"
+#include "suture/physics/purse_string_chain.hpp"
+#include "suture/physics/purse_string_operations.hpp"
+#include "suture/physics/purse_string_tethers.hpp"
+
+namespace suture {
+
+namespace {
+
+class Closure {
+ public:
+  Closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good);
+  ClosureResult run();
+
+ private:
+  void start_integrator(double initial_step);
+  void step();
+  void take_samples(double until);
+  void sample(double t);
+  void publish_events();
+  TissueState state_at(double t) const;
+  double since_start(double t) const { return t - start_; }
+
+  const Config& config_;
+  ClosureObserver& observer_;
+  TissueState& state_;  // at the last restart or, after each step, at the integrator's time
+  Membrane membrane_;
+  double start_, end_;
+  WoundTracker sampled_wound_, event_wound_;
+  ClosureEvents events_;
+  std::unique_ptr<TissueOde> ode_;
+  std::unique_ptr<Integrator> integrator_;
+  std::vector<EventRecord> log_;
+  std::size_t published_ = 0;
+  Statistics finished_;  // of integrators before the present one
+  long samples_ = 0;
+  double last_area_ = 0.0;
+  ClosureResult result_;
+  bool done_ = false;
+};
+
+TissueState with_string(const Config& config, TissueState state, const Wound& wound, double contact_distance) {
+  if (!config.purse_string.enabled) return state;
+  const std::vector<int> boundary = string_boundary(state.tissue, wound.boundary, config.purse_string.crevice_depth);
+  return create_purse_string(std::move(state), boundary, config.purse_string, contact_distance);
+}
+
+Closure::Closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good)
+    : config_(config),
+      observer_(observer),
+      state_(last_good),
+      membrane_(make_membrane(config.contact, state.tissue)),
+      start_(state.time),
+      end_(state.time + config.run.end_time),
+      sampled_wound_(membrane_),
+      event_wound_(membrane_),
+      events_(config, membrane_, state.time) {
+  event_wound_.update(state.tissue, state.view());
+  if (!event_wound_.wound()) throw NumericalError("there is no wound to close: the tissue has no hole");
+  state_ = with_string(config, std::move(state), *event_wound_.wound(), membrane_.contact_distance);
+}
+
+void Closure::start_integrator(double initial_step) {
+  if (integrator_) {
+    finished_ += integrator_->statistics();
+    ++finished_.restarts;
+  }
+  integrator_.reset();
+  std::vector<std::shared_ptr<const EnergyTerm>> extra;
+  if (!state_.purse_string.empty()) {
+    extra.push_back(std::make_shared<PurseStringChain>(state_.tissue, state_.purse_string, config_.purse_string));
+    extra.push_back(std::make_shared<PurseStringTethers>(state_.tissue, state_.purse_string, config_.purse_string, membrane_.contact_distance));
+  }
+  TissueOdeOptions options;
+  options.membrane_law = config_.membrane.law;
+  options.contact = config_.contact;
+  options.contact.distance = membrane_.contact_distance;
+  options.skin = config_.integrator.skin * state_.tissue.mean_initial_rest_length();
+  options.threads = config_.integrator.threads;
+  if (ode_)
+    ode_->replace_extra(state_.purse_string.size(), std::move(extra));
+  else
+    ode_ = std::make_unique<TissueOde>(state_.tissue, state_.purse_string.size(), options, std::move(extra), state_.reference_rest_length);
+  IntegratorOptions method = integrator_options(config_, state_.tissue.mean_initial_rest_length());
+  method.initial_step = initial_step;
+  integrator_ = make_integrator(*ode_, method, state_.time, state_.values);
+}
+
+TissueState Closure::state_at(double t) const {
+  TissueState state = state_;
+  state.time = t;
+  integrator_->interpolate(t, state.values);
+  return state;
+}
+
+void Closure::sample(double t) {
+  const TissueState state = t == state_.time ? state_ : state_at(t);
+  const std::optional<Wound>& wound = sampled_wound_.update(state.tissue, state.view());
+  Statistics total = finished_;
+  if (integrator_) total += integrator_->statistics();
+  observer_.sample({.state = state,
+                    .wound = wound,
+                    .time = since_start(t),
+                    .last_step = integrator_ ? integrator_->last_step() : 0.0,
+                    .last_order = integrator_ ? integrator_->last_order() : 0,
+                    .statistics = total});
+  const double area = wound ? wound->area : 0.0, limit = config_.run.closed_area;
+  if (sampled_wound_.status() == WoundStatus::open_to_outside) {
+    result_.status = ClosureStatus::opened;
+    done_ = true;
+  } else if (area < limit) {
+    const double fraction = samples_ == 0 ? 1.0 : (last_area_ - limit) / std::max(last_area_ - area, 1e-300);
+    result_.status = ClosureStatus::closed;
+    result_.t_closed = since_start(t) - (1.0 - std::clamp(fraction, 0.0, 1.0)) * config_.output.interval;
+    log_.push_back({start_ + *result_.t_closed, EventKind::closed, -1, -1});
+    done_ = true;
+  } else if (observer_.stop()) {
+    result_.status = ClosureStatus::stopped;
+    done_ = true;
+  }
+  last_area_ = area;
+  ++samples_;
+  if (done_) result_.state = state;
+}
+
+void Closure::take_samples(double until) {
+  while (!done_ && start_ + static_cast<double>(samples_) * config_.output.interval <= until + 1e-9 * config_.output.interval)
+    sample(std::min(start_ + static_cast<double>(samples_) * config_.output.interval, until));
+}
+
+void Closure::publish_events() {
+  for (; published_ < log_.size(); ++published_) observer_.event(log_[published_]);
+}
+
+void Closure::step() {
+  const std::optional<double> kink = next_kink_time(state_.purse_string, integrator_->time());
+  integrator_->step(std::min(end_, kink.value_or(end_)));
+  double until = integrator_->time();
+  while (const std::optional<DueEvents> due = events_.find(*integrator_, state_)) {
+    TissueState at_event = state_at(due->time);
+    if (!events_.apply(*due, at_event, event_wound_, log_)) continue;
+    take_samples(due->time);
+    publish_events();
+    const double restart_step = 0.1 * integrator_->last_step();
+    state_ = std::move(at_event);
+    if (!done_) start_integrator(restart_step);
+    return;
+  }
+  take_samples(until);
+  if (kink && until >= *kink) log_.push_back({until, EventKind::kink, -1, -1});
+  publish_events();
+  state_.time = until;
+  std::copy(integrator_->state().begin(), integrator_->state().end(), state_.values.begin());
+}
+
+ClosureResult Closure::run() {
+  start_integrator(0.0);
+  sample(start_);
+  while (!done_ && integrator_->time() < end_) step();
+  publish_events();
+  finished_ += integrator_->statistics();
+  result_.statistics = finished_;
+  result_.storms = events_.storms();
+  if (!done_) result_.state = state_;
+  return std::move(result_);
+}
+
+}  // namespace
+
+ClosureResult run_closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good) {
+  return Closure(config, std::move(state), observer, last_good).run();
+}
+
+}  // namespace suture

@@ -1,0 +1,166 @@
+#include "simulate/closure_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace suture {
+
+namespace {
+
+constexpr double storm_rate = 10.0;  // located events per unit of time beyond which locating costs more than it saves
+
+}  // namespace
+
+std::vector<int> string_boundary(const Tissue& tissue, const std::vector<int>& exposed, int crevice_depth) {
+  std::vector<char> taken(tissue.vertex_count(), 0);
+  for (const int v : exposed) taken[v] = 1;
+  std::vector<int> boundary;
+  const auto take = [&](int v) {
+    if (std::exchange(taken[v], 1) == 0) boundary.push_back(v);
+  };
+  for (std::size_t k = 0; k < exposed.size(); ++k) {
+    const int v = exposed[k], before = exposed[(k + exposed.size() - 1) % exposed.size()], after = exposed[(k + 1) % exposed.size()];
+    if (before != tissue.next(v)) {  // a run begins: cells are passed in the direction of decreasing vertex number
+      std::vector<int> lead{v};
+      for (int d = 0; d < crevice_depth; ++d) lead.push_back(tissue.next(lead.back()));
+      for (int d = crevice_depth; d >= 1; --d) take(lead[d]);
+    }
+    boundary.push_back(v);
+    if (after != tissue.previous(v))
+      for (int d = 0, w = v; d < crevice_depth; ++d) take(w = tissue.previous(w));
+  }
+  return boundary;
+}
+
+void StormGauge::count(double t, int events) {
+  if (t - window_start_ >= 1.0) {
+    in_last_window_ = t - window_start_ < 2.0 ? in_window_ : 0;
+    in_window_ = 0;
+    window_start_ = t;
+  }
+  in_window_ += events;
+  const bool before = storming_;
+  storming_ = static_cast<double>(std::max(in_window_, in_last_window_)) > storm_rate;
+  if (storming_ && !before) ++storms_;
+}
+
+bool StormGauge::on_grid(double t) {
+  if (handling_ != EventHandling::automatic) return handling_ == EventHandling::grid;
+  count(t, 0);
+  return storming_;
+}
+
+ClosureEvents::ClosureEvents(const Config& config, const Membrane& membrane, double start_time)
+    : parameters_(config.purse_string),
+      thresholds_(tether_thresholds(config.purse_string, membrane.contact_distance)),
+      start_(start_time),
+      interval_(config.purse_string.event_interval),
+      gauge_(config.purse_string.event_handling),
+      exposure_(membrane) {}
+
+/// Earliest crossing of any watched event function inside the step, by bisection on the interpolant. A tether that
+/// crosses and comes back within one step is not an event: the step's own accuracy does not resolve it.
+std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, const TissueState& state) {
+  const StateLayout layout = state.layout();
+  std::vector<RingEvent> due = due_events(state.purse_string, StateView(layout, integrator.state()), thresholds_);
+  if (due.empty()) return std::nullopt;
+  double low = integrator.time() - integrator.last_step(), high = integrator.time();
+  if (parameters_.event_handling == EventHandling::each_step) return DueEvents{high, std::move(due), false};
+  const double resolution = std::max(1e-6 * integrator.last_step(), 1e-12 * std::abs(high));
+  while (high - low > resolution) {
+    const double middle = 0.5 * (low + high);
+    integrator.interpolate(middle, values_);
+    std::vector<RingEvent> at_middle = due_events(state.purse_string, StateView(layout, values_), thresholds_);
+    if (at_middle.empty()) {
+      low = middle;
+    } else {
+      high = middle;
+      due = std::move(at_middle);
+    }
+  }
+  return DueEvents{high, std::move(due), false};
+}
+
+bool ClosureEvents::exposure_changed(const TissueState& state, const StateView& view) {
+  return exposure_(state.tissue, view).exposed != seen_exposed_;
+}
+
+/// Events at the grid times inside the step: the last one is examined, and only if something is due there is the first
+/// grid time at which it is looked for.
+std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, const TissueState& state) {
+  const long last = static_cast<long>(std::floor((integrator.time() - start_) / interval_ + 1e-9));
+  if (last <= last_grid_) return std::nullopt;
+  const bool tethers = gauge_.on_grid(integrator.time());
+  const auto due_at = [&](long k) -> std::optional<DueEvents> {
+    integrator.interpolate(std::min(grid_time(k), integrator.time()), values_);
+    const StateView view(state.layout(), values_);
+    DueEvents due{grid_time(k), {}, false};
+    if (tethers) due.tethers = due_events(state.purse_string, view, thresholds_);
+    due.captures = parameters_.capture && exposure_changed(state, view);
+    if (due.tethers.empty() && !due.captures) return std::nullopt;
+    return due;
+  };
+  std::optional<DueEvents> due = due_at(last);
+  if (due) {
+    long low = last_grid_, high = last;  // nothing due at low
+    while (high - low > 1) {
+      const long middle = (low + high) / 2;
+      if (std::optional<DueEvents> earlier = due_at(middle)) {
+        high = middle;
+        due = std::move(earlier);
+      } else {
+        low = middle;
+      }
+    }
+    last_grid_ = high;
+    due->time = std::min(due->time, integrator.time());
+  } else {
+    last_grid_ = last;
+  }
+  return due;
+}
+
+std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const TissueState& state) {
+  if (state.purse_string.empty()) return std::nullopt;
+  values_.resize(state.values.size());
+  std::optional<DueEvents> due = on_grid(integrator, state);
+  if (gauge_.on_grid(integrator.time())) return due;
+  std::optional<DueEvents> located = locate(integrator, state);
+  if (!located || (due && due->time <= located->time)) return due;
+  // The step is cut here, so the grid times behind it are looked at again.
+  last_grid_ = std::min(last_grid_, static_cast<long>(std::floor((located->time - start_) / interval_ + 1e-9)));
+  return located;
+}
+
+/// Captures come first: a tether that breaks now is recaptured at the next grid time at the earliest.
+bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log) {
+  std::vector<int> vertex;  // the events' cell vertices: ring indices move when vertices are captured
+  for (const RingEvent& e : due.tethers) vertex.push_back(state.purse_string.vertex[e.index]);
+  bool changed = !due.tethers.empty();
+  if (due.captures) changed |= capture(state, tracker, log);
+  std::vector<RingEvent> tethers = due.tethers;
+  const std::vector<int>& ring = state.purse_string.vertex;
+  for (std::size_t k = 0; k < tethers.size(); ++k)
+    tethers[k].index = static_cast<int>(std::find(ring.begin(), ring.end(), vertex[k]) - ring.begin());
+  state = apply_events(std::move(state), tethers, log);
+  gauge_.count(due.time, static_cast<int>(tethers.size()));
+  const auto is_yield = [](const RingEvent& e) { return e.kind == EventKind::yield; };
+  if (std::any_of(tethers.begin(), tethers.end(), is_yield)) seen_exposed_.clear();
+  return changed;
+}
+
+bool ClosureEvents::capture(TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log) {
+  seen_exposed_ = exposure_(state.tissue, state.view()).exposed;
+  const std::optional<Wound>& wound = tracker.update(state.tissue, state.view());
+  if (!wound) return false;
+  const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
+  const bool published = parameters_.capture_law == CaptureLaw::slip;
+  const std::vector<Capture> captured = published ? published_captures(state, boundary) : captures(state, boundary);
+  if (captured.empty()) return false;
+  state = capture_vertices(std::move(state), captured, parameters_.capture_law);
+  for (const Capture& c : captured) log.push_back(event_record(state, EventKind::capture, c.vertex));
+  return true;
+}
+
+}  // namespace suture

@@ -1,0 +1,67 @@
+// Finding and applying the events of a closure on the interpolant of the last step.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suture/integrate/integrator.hpp"
+#include "suture/measure/wound.hpp"
+#include "suture/ode/purse_string_events.hpp"
+#include "suture/physics/purse_string_operations.hpp"
+
+namespace suture {
+
+/// The vertices the string runs along: the exposed ones (counter-clockwise about the wound) and, at both ends of every
+/// cell's run, `crevice_depth` more towards where the cell touches its neighbour.
+std::vector<int> string_boundary(const Tissue& tissue, const std::vector<int>& exposed, int crevice_depth);
+
+/// Decides when tether events are worth locating: while fewer than `storm_rate` per unit of time happen.
+class StormGauge {
+ public:
+  explicit StormGauge(EventHandling handling) : handling_(handling) {}
+  bool on_grid(double t);
+  void count(double t, int events);
+  long storms() const { return storms_; }
+
+ private:
+  EventHandling handling_;
+  double window_start_ = 0.0;
+  long in_window_ = 0, in_last_window_ = 0, storms_ = 0;
+  bool storming_ = false;
+};
+
+/// What has to happen at one instant.
+struct DueEvents {
+  double time = 0.0;
+  std::vector<RingEvent> tethers;
+  bool captures = false;  ///< the event grid: exposed vertices are to be captured
+};
+
+class ClosureEvents {
+ public:
+  ClosureEvents(const Config& config, const Membrane& membrane, double start_time);
+
+  /// The first event in (integrator.time() - last_step(), time()], if any. `state` supplies tissue and ring.
+  std::optional<DueEvents> find(const Integrator& integrator, const TissueState& state);
+  /// Applies them to `state` (whose time and values are those of the event); true if anything changed.
+  bool apply(const DueEvents& due, TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log);
+  long storms() const { return gauge_.storms(); }
+
+ private:
+  std::optional<DueEvents> locate(const Integrator& integrator, const TissueState& state);
+  std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state);
+  bool capture(TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log);
+  bool exposure_changed(const TissueState& state, const StateView& view);
+  double grid_time(long k) const { return start_ + static_cast<double>(k) * interval_; }
+
+  PurseStringParameters parameters_;
+  TetherThresholds thresholds_;
+  double start_, interval_;
+  StormGauge gauge_;
+  ExposureMeasure exposure_;
+  std::vector<char> seen_exposed_;  // when captures were last settled
+  long last_grid_ = 0;              // index of the last grid time looked at
+  std::vector<double> values_;      // interpolated
+};
+
+}  // namespace suture
