@@ -118,7 +118,7 @@ struct PurseStringParameters {
 
 struct PackingParameters {
   double initial_fraction = 0.78;
-  double final_fraction = 0.99;
+  double final_fraction = 0.985;
   double increment = 0.005;
   double adhesion = 0.0;           ///< l1 while compressing
   double area_stiffness = 16.0;    ///< k_a while compressing
