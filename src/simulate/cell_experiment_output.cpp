@@ -12,7 +12,7 @@ namespace suture {
 namespace {
 
 constexpr int panel_size = 360;          // pixels
-constexpr double arrow_share = 0.3;      // length of a force arrow / diameter of the cell
+constexpr double arrow_share = 0.2;      // length of a force arrow / diameter of the cell
 constexpr double plate_overhang = 1.15;  // length of a plate / greatest width of the cell
 
 void record_series(TrajectoryWriter& writer, const std::vector<CellSample>& samples) {
