@@ -21,7 +21,7 @@ TissueState make_round_cell(const Config& config) {
   const double round = regular_rest_length(n, cell.tissue.material(0).rest_area, 1.0);
   if (std::abs(edge - round) > 1e-9 * round)
     throw InputError(
-        fmt::format("key 'tissue.shape_parameter': found {}, allowed 1 in a one-cell experiment, which "
+        fmt::format("key 'tissue.shape_parameter': found {:.6g}, allowed 1 in a one-cell experiment, which "
                     "starts from a round cell at rest",
                     edge * edge / (round * round)));
   const double radius = 0.5 * edge / std::sin(std::numbers::pi / n);
