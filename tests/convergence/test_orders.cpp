@@ -35,7 +35,7 @@ TEST_CASE("Euler, RKC2 and RK4 converge at orders 1, 2 and 4", "[convergence]") 
     Method method;
     double order, coarsest;
   };
-  for (const Row& row : {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 256}}) {
+  for (const Row& row : {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 64}}) {
     std::vector<double> errors;
     for (const double h : {row.coarsest, row.coarsest / 2, row.coarsest / 4, row.coarsest / 8}) {
       Statistics statistics;
@@ -56,7 +56,7 @@ TEST_CASE("interpolation between steps keeps the accuracy of the method", "[conv
     Method method;
     double order, coarsest;
   };
-  for (const Row& row : {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 256}}) {
+  for (const Row& row : {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 64}}) {
     std::vector<double> errors;
     for (const double h : {row.coarsest, row.coarsest / 2, row.coarsest / 4}) {
       const auto integrator = make_integrator(problem.ode, fixed(row.method, h), 0.0, problem.state.values);
@@ -87,7 +87,7 @@ TEST_CASE("CVODE's interpolant is as accurate as its steps, and meets both ends 
     integrator->interpolate(integrator->time() - integrator->last_step(), between);
     CHECK(largest_difference(between, before) < 20.0 * tolerance);
     before.assign(integrator->state().begin(), integrator->state().end());
-    if (integrator->statistics().steps % 10 != 0) continue;
+    if (integrator->statistics().steps % 5 != 0) continue;
     const double t = integrator->time() - 0.5 * integrator->last_step();
     integrator->interpolate(t, between);
     const auto exact = integrate(problem.ode, with_step(Method::rk4, 1.0 / 4096.0), 0.0, problem.state.values, t);

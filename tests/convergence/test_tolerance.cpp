@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <limits>
 
 #include "support/integration.hpp"
 
@@ -44,7 +45,8 @@ TEST_CASE("a step never passes its limit and can end on it exactly", "[convergen
       int steps = 0;
       while (integrator->time() < limit) {
         const double before = integrator->time();
-        CHECK(integrator->step(limit) == integrator->time());
+        const double reached = integrator->step(limit);
+        CHECK(reached == integrator->time());
         CHECK(integrator->time() <= limit);
         CHECK(integrator->last_step() == Approx(integrator->time() - before).epsilon(1e-6));
         REQUIRE(++steps < 10000);

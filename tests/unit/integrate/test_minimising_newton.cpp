@@ -16,7 +16,7 @@ using namespace suture::test;
 namespace {
 
 constexpr double contact_distance = 0.3;
-constexpr NewtonTarget generous{.tolerance = 1.0, .give_up = 1e9};
+constexpr NewtonTarget generous{.tolerance = 1.0, .give_up = 1e15};
 
 struct Step {
   explicit Step(std::uint64_t seed, double gamma_in)

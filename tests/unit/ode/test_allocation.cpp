@@ -56,10 +56,13 @@ TEST_CASE("rate, residual, product and preconditioner allocate nothing once warm
     everything(state.values);
     everything(there);
   }
-  CHECK(allocations == before);
+  const long during = allocations - before;
+  CHECK(during == 0);
   CHECK(ode.list_rebuilds() == rebuilds + 6);  // rebuilding the list was part of it
+  const long start = allocations;
   const std::vector<double> one(3);
-  CHECK(allocations == before + 1);  // the count counts
+  const long counted_one = allocations - start;
+  CHECK(counted_one == 1);
 }
 
 TEST_CASE("steps of the integrators allocate nothing once warm", "[unit]") {
@@ -69,11 +72,12 @@ TEST_CASE("steps of the integrators allocate nothing once warm", "[unit]") {
     IntegratorOptions options = with_tolerance(method, 1e-6);
     options.time_step = 1e-4;
     const auto integrator = make_integrator(ode, options, 0.0, state.values);
-    for (int k = 0; k < 40; ++k) integrator->step(10.0);
+    for (int k = 0; k < 40; ++k) integrator->step(1e9);
     const long before = allocations;
-    for (int k = 0; k < 40; ++k) integrator->step(10.0);
+    for (int k = 0; k < 40; ++k) integrator->step(1e9);
+    const long during = allocations - before;  // the test's own words allocate
     CAPTURE(static_cast<int>(method));
-    CHECK(allocations == before);
+    CHECK(during == 0);
     CHECK(integrator->statistics().steps == 80);
   }
 }
