@@ -45,6 +45,10 @@ void add_wound_keys(std::vector<ConfigKey<Config>>& rows) {
                                                     "velocity-Verlet step of the constant-energy motion"));
   add(key<&C::anneal, &AnnealParameters::relaxation_time>("anneal", "relaxation_time", time, non_negative,
                                                           "overdamped motion after the constant-energy motion"));
+  add(key<&C::anneal, &AnnealParameters::tolerance>(
+      "anneal", "tolerance", in_rest_lengths, positive,
+      "of the overdamped motions before closure, which are always solved by cvode so that every integrator.method starts "
+      "from the same wound"));
   add(key<&C::wound, &WoundParameters::cells>("wound", "cells", pure_number, between(1, 1e6),
                                               "number of cells ablated, those nearest the tissue centre"));
   add(key<&C::wound, &WoundParameters::relaxation_time>("wound", "relaxation_time", time, non_negative,

@@ -31,7 +31,7 @@ std::string to_csv(std::span<const WoundSample> samples, const UnitScales& scale
                    sample.time * scales.time_min(), field(sample.wound_area),
                    field(sample.wound_area, scales.factor(Dimension::area)), field(fraction), field(sample.mean_shape),
                    field(sample.perimeter), field(sample.perimeter, scales.length_um()), sample.ring_size, sample.parts,
-                   sample.shortest_segment, sample.energy);
+                   sample.shortest_segment, field(sample.energy));
   }
   return text;
 }

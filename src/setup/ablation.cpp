@@ -6,43 +6,19 @@
 #include <numeric>
 
 #include "suture/errors.hpp"
+#include "suture/measure/cell_shape.hpp"
+#include "suture/measure/patch.hpp"
 
 namespace suture {
-
-namespace {
-
-struct Moments {
-  double area = 0.0, x = 0.0, y = 0.0;  ///< area, and area times centroid
-};
-
-Moments cell_moments(const TissueState& state, int cell) {
-  const StateView view = state.view();
-  Moments sum;
-  for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v) {
-    const int w = state.tissue.next(v);
-    const double triangle = 0.5 * (view.x[v] * view.y[w] - view.x[w] * view.y[v]);
-    sum.area += triangle;
-    sum.x += triangle * (view.x[v] + view.x[w]) / 3.0;
-    sum.y += triangle * (view.y[v] + view.y[w]) / 3.0;
-  }
-  return sum;
-}
-
-}  // namespace
 
 std::vector<int> central_cells(const TissueState& state, int count) {
   const int cells = state.tissue.cell_count();
   if (count < 0 || count > cells)
     throw InputError(fmt::format("wound.cells: {} of {} cells cannot be ablated", count, cells));
-  std::vector<Moments> moments;
-  Moments total;
-  for (int cell = 0; cell < cells; ++cell) {
-    moments.push_back(cell_moments(state, cell));
-    total.area += moments[cell].area, total.x += moments[cell].x, total.y += moments[cell].y;
-  }
+  const Point centre = tissue_extents(state.tissue, state.view()).centre;
   std::vector<double> squared_distance;
-  for (const Moments& m : moments) {
-    const double dx = m.x / m.area - total.x / total.area, dy = m.y / m.area - total.y / total.area;
+  for (const CellShape& shape : cell_shapes(state.tissue, state.view())) {
+    const double dx = shape.centre.x - centre.x, dy = shape.centre.y - centre.y;
     squared_distance.push_back(dx * dx + dy * dy);
   }
   std::vector<int> order(cells);
@@ -82,6 +58,19 @@ TissueState remove_cells(const TissueState& state, const std::vector<int>& cells
   if (!state.reference_rest_length.empty())
     append_surviving(state.reference_rest_length, wounded.reference_rest_length);
   return wounded;
+}
+
+Ablated ablate(const Config& config, const TissueState& annealed, const Progress& progress) {
+  Ablated ablated;
+  ablated.removed = central_cells(annealed, config.wound.cells);
+  ablated.state = remove_cells(annealed, ablated.removed);
+  ablated.statistics = relax_overdamped(config, ablated.state, config.wound.relaxation_time,
+                                        [&progress](double fraction, std::string_view text) {
+                                          report_progress(progress, "ablation", fraction, text);
+                                        });
+  const std::span<const double> rest_lengths = ablated.state.view().rest_length;
+  ablated.state.reference_rest_length.assign(rest_lengths.begin(), rest_lengths.end());
+  return ablated;
 }
 
 }  // namespace suture

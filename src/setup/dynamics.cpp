@@ -47,11 +47,12 @@ void remove_rotation(std::span<const double> x, std::span<const double> y, std::
 
 }  // namespace
 
-std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed) {
+std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed,
+                                       int attempt) {
   const std::size_t count = state.tissue.vertex_count();
   const StateView view = state.view();
   std::vector<double> velocities(2 * count);
-  RandomStream random(seed, RandomPurpose::velocities);
+  RandomStream random(seed, RandomPurpose::velocities, attempt);
   for (double& velocity : velocities) velocity = random.normal();
   const std::span<double> vx(velocities.data(), count), vy(velocities.data() + count, count);
   remove_momentum(vx);
@@ -101,19 +102,25 @@ EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, T
   return report;
 }
 
-Statistics relax_overdamped(const Config& config, TissueState& state, double duration) {
+Statistics relax_overdamped(const Config& config, TissueState& state, double duration, const MotionProgress& progress) {
+  if (!(duration > 0.0)) return {};
   TissueOde ode(state.tissue, 0, elastic_options(config, config.contact.adhesion), {});
-  const double length = make_tissue(config).mean_initial_rest_length();
-  IntegratorOptions options;
-  options.method = config.integrator.method;
-  options.position_tolerance = config.integrator.tolerance * length;
-  options.rest_length_tolerance = config.integrator.rest_length_tolerance * length;
-  options.time_step = config.integrator.time_step.value_or(0.0);
-  options.maximum_order = config.integrator.maximum_order;
+  // Whatever integrator the closure is to be studied with, it starts from the same wound.
+  Config relaxation = config;
+  relaxation.integrator = {.method = Method::cvode, .tolerance = config.anneal.tolerance};
+  const IntegratorOptions options = integrator_options(relaxation, make_tissue(config).mean_initial_rest_length());
   const auto integrator = make_integrator(ode, options, state.time, state.values);
-  const double end = state.time + duration;
-  while (integrator->time() < end) integrator->step(end);
-  state.values.assign(integrator->state().begin(), integrator->state().end());
+  const double start = state.time, end = start + duration;
+  constexpr int reports = 20;
+  for (int part = 1; part <= reports; ++part) {
+    const double stop = part == reports ? end : start + duration * part / reports;
+    while (integrator->time() < stop) integrator->step(end);
+    if (progress)
+      progress(static_cast<double>(part) / reports,
+               fmt::format("overdamped motion, {:.4g} of {:g}", integrator->time() - start, duration));
+  }
+  const auto reached = integrator->state();
+  state.values.assign(reached.begin(), reached.end());
   state.time = end;
   return integrator->statistics();
 }

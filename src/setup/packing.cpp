@@ -103,11 +103,14 @@ class Compression {
     minimise(options_.step_tolerance);
     // The cells give way, so the last steps approach the final fraction geometrically.
     const double enough = options_.final_fraction - 0.02 * options_.increment;
-    const int most_steps = 100 + static_cast<int>(10.0 * (options_.final_fraction - options_.initial_fraction) / options_.increment);
+    constexpr int patience = 10;
+    double progress_mark = packing_.report.fraction;
     while (packing_.report.fraction < enough) {
-      if (packing_.report.compression_steps == most_steps) refuse();
       compress();
       minimise(options_.step_tolerance);
+      if (packing_.report.compression_steps % patience != 0) continue;
+      if (packing_.report.fraction < std::min(enough, progress_mark + 0.1 * options_.increment)) refuse();
+      progress_mark = packing_.report.fraction;
     }
     minimise(options_.force_tolerance);
     return std::move(packing_);

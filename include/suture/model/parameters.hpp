@@ -138,6 +138,7 @@ struct AnnealParameters {
   double duration = 1.0;         ///< constant-energy motion
   double time_step = 0.0025;     ///< velocity Verlet
   double relaxation_time = 100.0;///< overdamped, after the constant-energy motion
+  double tolerance = 1e-3;       ///< of the overdamped motions before closure (always cvode), in units of l0(0)
   bool operator==(const AnnealParameters&) const = default;
 };
 

@@ -1,6 +1,9 @@
 // The two motions of the protocol without plasticity and without purse string: at constant energy, and overdamped.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "suture/integrate/integrator.hpp"
@@ -13,7 +16,8 @@ namespace suture {
 /// Maxwell velocities of the cell vertices (unit mass; all x, then all y) at `temperature`: no total momentum, no total
 /// angular momentum about the centre of mass, and a kinetic energy of exactly temperature per vertex (kT/2 per
 /// component). Bit-identical for the same seed and positions.
-std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed);
+std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed,
+                                       int attempt = 0);
 
 struct EnergyReport {
   double initial = 0.0;  ///< kinetic plus potential
@@ -28,7 +32,12 @@ struct EnergyReport {
 EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
                                      std::vector<double>& velocities, double duration, double time_step);
 
-/// Overdamped motion of elastic cells for `duration`, by the configured integrator.
-Statistics relax_overdamped(const Config& config, TissueState& state, double duration);
+/// Told how far a motion is: fraction from 0 to 1, and one line for a person.
+using MotionProgress = std::function<void(double fraction, std::string_view text)>;
+
+/// Overdamped motion of elastic cells without plasticity for `duration`, always by cvode, to anneal.tolerance.
+/// Throws NumericalError when it fails.
+Statistics relax_overdamped(const Config& config, TissueState& state, double duration,
+                            const MotionProgress& progress = {});
 
 }  // namespace suture

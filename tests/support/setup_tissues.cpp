@@ -1,0 +1,35 @@
+#include "support/setup_tissues.hpp"
+
+#include <limits>
+
+namespace suture::test {
+
+Config small_config() {
+  Config config;
+  config.tissue.cells = 7;
+  config.tissue.vertices = 16;
+  config.packing.initial_fraction = 0.7;
+  config.packing.increment = 0.02;
+  config.anneal.relaxation_time = 10.0;
+  config.wound.cells = 1;
+  config.wound.relaxation_time = 10.0;
+  config.wound.minimum_area = 0.0;
+  config.wound.maximum_hole = std::numeric_limits<double>::infinity();
+  return config;
+}
+
+const Packing& packed_small_tissue() {
+  static const Packing packing = make_packing(small_config());
+  return packing;
+}
+
+TissueOde elastic_ode(const Config& config, const Tissue& tissue) {
+  TissueOdeOptions options;
+  options.membrane_law = config.membrane.law;
+  options.contact = config.contact;
+  options.contact.distance = tissue.mean_initial_rest_length();
+  options.plastic = false;
+  return {tissue, 0, options, {}};
+}
+
+}  // namespace suture::test
