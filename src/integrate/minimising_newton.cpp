@@ -98,6 +98,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   std::copy_n(q.data(), n_, q_);
   std::copy_n(q.data(), n_, start_);
   if (residual(span(q_), f_) != Evaluation::ok) {
+    std::fill_n(z_, n_, 0.0);
     ++counts_.failures;
     return NewtonResult::not_converged;
   }
