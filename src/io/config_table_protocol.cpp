@@ -21,8 +21,6 @@ void add_packing_keys(std::vector<ConfigKey<Config>>& rows) {
   add(key<&C::packing, &P::area_stiffness>(section, "area_stiffness", modulus, non_negative, "k_a while compressing"));
   add(key<&C::packing, &P::bending_stiffness>(section, "bending_stiffness", energy, non_negative,
                                               "k_b while compressing"));
-  add(key<&C::packing, &P::shape_noise>(section, "shape_noise", pure_number, {0.0, 0.5, true, false},
-                                        "random relative displacement of the corners of the first polygons"));
   add(key<&C::packing, &P::wall_energy>(section, "wall_energy", energy, positive, "energy scale of the circular wall"));
   add(key<&C::packing, &P::wall_range>(section, "wall_range", in_contact_distances, positive,
                                        "range sigma of the wall"));

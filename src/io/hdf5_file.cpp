@@ -71,11 +71,11 @@ void set_label(hid_t dataset, const Hdf5Label& label) {
 
 Hdf5Handle create_dataset(hid_t group, const std::string& name, hid_t type, std::span<const hsize_t> dimensions,
                           const Hdf5Label& label) {
-  const Hdf5Handle space = dimensions.empty()
-                               ? own(H5Screate(H5S_SCALAR), name)
-                               : own(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr), name);
-  Hdf5Handle dataset = own(H5Dcreate2(group, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                           "creating " + name);
+  const Hdf5Handle space =
+      dimensions.empty() ? own(H5Screate(H5S_SCALAR), name)
+                         : own(H5Screate_simple(static_cast<int>(dimensions.size()), dimensions.data(), nullptr), name);
+  Hdf5Handle dataset =
+      own(H5Dcreate2(group, name.c_str(), type, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), "creating " + name);
   set_label(dataset.id(), label);
   return dataset;
 }
@@ -198,7 +198,8 @@ T read_scalar(hid_t object, const std::string& name, hid_t in_memory) {
   const Hdf5Handle attribute =
       own(H5Aopen(object, name.c_str(), H5P_DEFAULT), fmt::format("attribute '{}' is missing", name));
   const Hdf5Handle space = own(H5Aget_space(attribute.id()), name);
-  if (H5Sget_simple_extent_npoints(space.id()) != 1) throw FileError(fmt::format("attribute '{}' is not a scalar", name));
+  if (H5Sget_simple_extent_npoints(space.id()) != 1)
+    throw FileError(fmt::format("attribute '{}' is not a scalar", name));
   T value{};
   check(H5Aread(attribute.id(), in_memory, &value), fmt::format("attribute '{}' cannot be read", name));
   return value;
@@ -375,7 +376,8 @@ Hdf5File Hdf5File::create_in_memory() {
   silence();
   const Hdf5Handle access = own(H5Pcreate(H5P_FILE_ACCESS), "file access properties");
   check(H5Pset_fapl_core(access.id(), memory_increment, /*backing_store=*/false), "HDF5 core driver");
-  return Hdf5File(own(H5Fcreate("suture-in-memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "creating an HDF5 file in memory"));
+  return Hdf5File(
+      own(H5Fcreate("suture-in-memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "creating an HDF5 file in memory"));
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {

@@ -51,7 +51,8 @@ class Hdf5Group {
   void write(const std::string& name, std::span<const int> values, const Hdf5Label& label) const;
   void write(const std::string& name, double value, const Hdf5Label& label) const;
   /// columns side by side: shape [length, columns.size()].
-  void write_table(const std::string& name, std::span<const std::span<const double>> columns, const Hdf5Label& label) const;
+  void write_table(const std::string& name, std::span<const std::span<const double>> columns,
+                   const Hdf5Label& label) const;
   void write_text(const std::string& name, std::string_view text, const Hdf5Label& label) const;
 
   /// Extends a one-dimensional dataset, which is created at the first call.

@@ -25,10 +25,14 @@ Json number(const std::optional<double>& value, double scale = 1.0) {
 
 const char* status_name(RunStatus status) {
   switch (status) {
-    case RunStatus::closed: return "closed";
-    case RunStatus::reached_t_end: return "reached_t_end";
-    case RunStatus::stopped: return "stopped";
-    case RunStatus::failed: return "failed";
+    case RunStatus::closed:
+      return "closed";
+    case RunStatus::reached_t_end:
+      return "reached_t_end";
+    case RunStatus::stopped:
+      return "stopped";
+    case RunStatus::failed:
+      return "failed";
   }
   throw FileError("a run status has no name");
 }
@@ -47,8 +51,10 @@ void add_times(Json& json, const RunSummary& summary, double time_min) {
 }
 
 Json solver_counts(const Statistics& solver) {
-  return {{"rate_evaluations", solver.rate_evaluations},   {"steps", solver.steps},
-          {"newton_iterations", solver.newton_iterations}, {"linear_iterations", solver.linear_iterations},
+  return {{"rate_evaluations", solver.rate_evaluations},
+          {"steps", solver.steps},
+          {"newton_iterations", solver.newton_iterations},
+          {"linear_iterations", solver.linear_iterations},
           {"error_test_failures", solver.error_test_failures},
           {"convergence_failures", solver.convergence_failures},
           {"restarts", solver.restarts}};
@@ -73,9 +79,8 @@ std::string to_json(const RunSummary& summary) {
   json["closure_rate"] = number(summary.closure_rate);
   json["closure_rate_um2_per_min"] = number(summary.closure_rate, scales.factor(Dimension::area_rate));
   json["healed_shape"] = number(summary.healed_shape);
-  json["events"] = {{"yield", summary.events.yield},
-                    {"capture", summary.events.capture},
-                    {"exchange", summary.events.exchange}};
+  json["events"] = {
+      {"yield", summary.events.yield}, {"capture", summary.events.capture}, {"exchange", summary.events.exchange}};
   json["solver"] = solver_counts(summary.solver);
   json["wall_s"] = summary.wall_s;
   return json.dump(2) + "\n";

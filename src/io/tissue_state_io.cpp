@@ -45,7 +45,8 @@ void write_purse_string(const Hdf5Group& group, const TissueState& state) {
     reference_length.push_back(spring.reference_length);
   }
   group.write("mode", mode, {"1", "tether mode: 0 attached, 1 slipped"});
-  group.write("spring_rest_length", rest_length, {"length", "lambda0 of the spring to the next vertex, at its start time"});
+  group.write("spring_rest_length", rest_length,
+              {"length", "lambda0 of the spring to the next vertex, at its start time"});
   group.write("spring_start_time", start_time, {"time", "since when the spring shortens"});
   group.write("spring_reference_length", reference_length, {"length", "lambda0(0), which sets the spring's stiffness"});
   group.write("shrink_rate", ring.shrink_rate, {"length/time", "of every spring's rest length"});
@@ -82,7 +83,8 @@ Hdf5File open_trajectory(const std::filesystem::path& path) {
     throw FileError("it is an HDF5 file, but not a suture trajectory (no schema attribute)");
   const std::int64_t version = root.integer_attribute("schema_version");
   if (version != trajectory_schema_version)
-    throw FileError(fmt::format("its layout is version {}; this program reads version {}", version, trajectory_schema_version));
+    throw FileError(
+        fmt::format("its layout is version {}; this program reads version {}", version, trajectory_schema_version));
   return file;
 }
 
@@ -133,7 +135,8 @@ void write_configuration(const Hdf5Group& group, const TissueState& state) {
   const std::array<std::span<const double>, 2> position{view.x.first(vertices), view.y.first(vertices)};
   group.write("time", state.time, {"time", "simulation time"});
   group.write_table("position", position, {"length", "cell vertices, cell after cell: x, y"});
-  group.write("rest_length", view.rest_length, {"length", "l0 of the segment from each vertex to the next of its cell"});
+  group.write("rest_length", view.rest_length,
+              {"length", "l0 of the segment from each vertex to the next of its cell"});
   write_purse_string(group.create_group("purse_string"), state);
 }
 
@@ -150,7 +153,8 @@ StoredConfiguration read_configuration(const Hdf5Group& group, int vertices) {
   expect_size(ring_position.size(), 2 * ring, "purse_string/position");
   expect_size(rest_length.size(), cells, "rest_length");
   for (const int vertex : stored.purse_string.vertex)
-    if (vertex < 0 || vertex >= vertices) throw FileError(fmt::format("a tether holds vertex {} of {}", vertex, vertices));
+    if (vertex < 0 || vertex >= vertices)
+      throw FileError(fmt::format("a tether holds vertex {} of {}", vertex, vertices));
   const StateLayout layout{vertices, static_cast<int>(ring)};
   stored.values.resize(layout.size());
   const MutableStateView view(layout, stored.values);
@@ -164,10 +168,14 @@ StoredConfiguration read_configuration(const Hdf5Group& group, int vertices) {
 
 std::string stage_name(Stage stage) {
   switch (stage) {
-    case Stage::packing: return "packing";
-    case Stage::anneal: return "anneal";
-    case Stage::ablation: return "ablation";
-    case Stage::closure: return "closure";
+    case Stage::packing:
+      return "packing";
+    case Stage::anneal:
+      return "anneal";
+    case Stage::ablation:
+      return "ablation";
+    case Stage::closure:
+      return "closure";
   }
   throw FileError(fmt::format("stage {} has no name", static_cast<int>(stage)));
 }

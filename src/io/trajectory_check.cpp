@@ -45,13 +45,15 @@ void check_state(FileReport& out, const std::string& where, const TissueState& s
   };
   for (int v = 0; v < state.tissue.vertex_count(); ++v)
     if (!(view.rest_length[v] > 0.0))
-      report(out, fmt::format("{}: the rest length after {} is {}", where, state.tissue.vertex_name(v), view.rest_length[v]));
+      report(out, fmt::format("{}: the rest length after {} is {}", where, state.tissue.vertex_name(v),
+                              view.rest_length[v]));
   for (int cell = 0; cell < state.tissue.cell_count(); ++cell)
     if (const double area = cell_area(cell); !(area > 0.0))
       report(out, fmt::format("{}: cell {} is not counter-clockwise, its signed area is {}", where, cell, area));
 }
 
-void check_series(FileReport& out, const std::string& where, std::span<const double> time, std::span<const double> value) {
+void check_series(FileReport& out, const std::string& where, std::span<const double> time,
+                  std::span<const double> value) {
   if (!all_finite(time) || !all_finite(value)) report(out, where + ": a value is not finite");
   if (!std::is_sorted(time.begin(), time.end())) report(out, where + ": time decreases");
 }
@@ -78,7 +80,8 @@ FileReport check_trajectory(const std::filesystem::path& path) {
   for (std::size_t i = 0; i < trajectory.frames.size(); ++i) {
     const std::string where = fmt::format("frame {}", i);
     check_state(out, where, trajectory.state(static_cast<int>(i)));
-    if (i > 0 && !(trajectory.frames[i].time > trajectory.frames[i - 1].time)) report(out, where + ": time does not increase");
+    if (i > 0 && !(trajectory.frames[i].time > trajectory.frames[i - 1].time))
+      report(out, where + ": time does not increase");
     for (const CellField& field : trajectory.frames[i].extras.cell_fields)
       if (!all_finite(field.values)) report(out, fmt::format("{}: {} is not finite", where, field.quantity.name));
   }

@@ -47,7 +47,8 @@ TrajectoryFrame read_frame(const Hdf5Group& group, const Tissue& tissue) {
   for (const std::string& name : cells.members()) {
     CellField field{{name, cells.unit_of(name), cells.description_of(name)}, cells.doubles(name)};
     if (field.values.size() != static_cast<std::size_t>(tissue.cell_count()))
-      throw FileError(fmt::format("'cells/{}' has {} entries for {} cells", name, field.values.size(), tissue.cell_count()));
+      throw FileError(
+          fmt::format("'cells/{}' has {} entries for {} cells", name, field.values.size(), tissue.cell_count()));
     frame.extras.cell_fields.push_back(std::move(field));
   }
   const std::vector<double> outline = group.pairs("wound_outline");
@@ -81,10 +82,12 @@ void read_observables(const Hdf5Group& root, Trajectory& trajectory) {
   const Hdf5Group group = root.group("observables");
   for (const std::string& name : group.members()) {
     const Hdf5Group member = group.group(name);
-    Series series{{name, member.unit_of("value"), member.description_of("value")}, member.doubles("time"),
+    Series series{{name, member.unit_of("value"), member.description_of("value")},
+                  member.doubles("time"),
                   member.doubles("value")};
     if (series.time.size() != series.value.size())
-      throw FileError(fmt::format("observable '{}' has {} times for {} values", name, series.time.size(), series.value.size()));
+      throw FileError(
+          fmt::format("observable '{}' has {} times for {} values", name, series.time.size(), series.value.size()));
     trajectory.observables.push_back(std::move(series));
   }
 }

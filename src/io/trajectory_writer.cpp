@@ -79,8 +79,8 @@ struct TrajectoryWriter::Impl {
   }
 
   void expect_same_tissue(const TissueState& state) const {
-    bool same = state.tissue.cell_count() == tissue.cell_count() &&
-                state.reference_rest_length == reference_rest_length;
+    bool same =
+        state.tissue.cell_count() == tissue.cell_count() && state.reference_rest_length == reference_rest_length;
     for (int cell = 0; same && cell < tissue.cell_count(); ++cell)
       same = state.tissue.vertex_count(cell) == tissue.vertex_count(cell);
     if (!same)

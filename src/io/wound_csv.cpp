@@ -28,15 +28,16 @@ std::string to_csv(std::span<const WoundSample> samples, const UnitScales& scale
     const std::optional<double> fraction =
         sample.wound_area && largest > 0.0 ? std::optional(*sample.wound_area / largest) : std::nullopt;
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{},{},{},{},{},{}\n", sample.time,
-                   sample.time * scales.time_min(), field(sample.wound_area), field(sample.wound_area, scales.factor(Dimension::area)),
-                   field(fraction), field(sample.mean_shape), field(sample.perimeter),
-                   field(sample.perimeter, scales.length_um()), sample.ring_size, sample.parts, sample.shortest_segment,
-                   sample.energy);
+                   sample.time * scales.time_min(), field(sample.wound_area),
+                   field(sample.wound_area, scales.factor(Dimension::area)), field(fraction), field(sample.mean_shape),
+                   field(sample.perimeter), field(sample.perimeter, scales.length_um()), sample.ring_size, sample.parts,
+                   sample.shortest_segment, field(sample.energy));
   }
   return text;
 }
 
-void write_wound_csv(std::span<const WoundSample> samples, const UnitScales& scales, const std::filesystem::path& path) {
+void write_wound_csv(std::span<const WoundSample> samples, const UnitScales& scales,
+                     const std::filesystem::path& path) {
   write_file_atomically(path, to_csv(samples, scales));
 }
 

@@ -42,19 +42,9 @@ Point BoundaryPieces::point(const Piece& piece, double parameter, double offset)
           segment.ay + parameter * segment.uy - offset * segment.ux};
 }
 
-BoundaryPieces::Nearest BoundaryPieces::nearest(const Piece& piece, Point p) const {
-  double parameter;
-  const MembraneSegment& segment = (*grid_)[piece.feature];
-  const double wx = p.x - segment.ax, wy = p.y - segment.ay;
-  if (piece.arc) {
-    const MembraneSegment& before = (*grid_)[tissue_->previous(piece.feature)];
-    parameter = std::atan2(wx * before.ux + wy * before.uy, wx * before.uy - wy * before.ux);
-  } else {
-    parameter = wx * segment.ux + wy * segment.uy;
-  }
-  parameter = std::clamp(parameter, piece.low, piece.high);
-  const Point q = point(piece, parameter, rho_);
-  return {squared(q.x - p.x) + squared(q.y - p.y), parameter};
+double BoundaryPieces::middle_of_arc(int vertex) const {
+  const MembraneSegment &in = (*grid_)[tissue_->previous(vertex)], &out = (*grid_)[vertex];
+  return 0.5 * std::atan2(cross(in, out), dot(in, out));
 }
 
 void BoundaryPieces::add_pieces(int feature, bool arc) {
@@ -142,7 +132,7 @@ void BoundaryPieces::add_line(int v) {
   if (uncovered_.empty()) return;
   const double x = s.ax + rho_ * s.uy, y = s.ay - rho_ * s.ux;
   const double x_end = x + s.length * s.ux, y_end = y + s.length * s.uy;
-  const Box box{std::min(x, x_end), std::max(x, x_end), std::min(y, y_end), std::max(y, y_end)};
+  const BoundingBox box{std::min(x, x_end), std::max(x, x_end), std::min(y, y_end), std::max(y, y_end)};
   if (!grid_->visit_near(box, rho_, [&](int j) { return cover_line(v, j); })) add_pieces(v, false);
 }
 

@@ -29,13 +29,10 @@ class BoundaryPieces {
   double largest_gap() const { return std::sqrt(squared_gap_); }
   /// Point at `offset` outside the membrane, on the normal through the piece's point at this parameter.
   Point point(const Piece& piece, double parameter, double offset) const;
-  /// Nearest point of a piece: squared distance and parameter.
-  struct Nearest {
-    double squared_distance, parameter;
-  };
-  Nearest nearest(const Piece& piece, Point p) const;
   /// The pieces of the arc about vertex v and of the line along segment v.
   std::span<const Piece> of_vertex(int v) const { return pieces().subspan(begin_[v], begin_[v + 1] - begin_[v]); }
+  /// Parameter of the bisector of a convex vertex.
+  double middle_of_arc(int vertex) const;
   int index(const Piece& piece) const { return static_cast<int>(&piece - pieces_.data()); }
 
  private:

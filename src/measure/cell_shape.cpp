@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "suture/errors.hpp"
+#include "suture/geometry/polygon.hpp"
 
 namespace suture {
 namespace {
@@ -16,7 +17,8 @@ void cell_polygon(const Tissue& tissue, const StateView& state, int cell, Polygo
   for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) out.push_back({state.x[v], state.y[v]});
 }
 
-bool touches(std::span<const Point> cell, std::span<const Point> outline, const Box& outline_box, double reach) {
+bool touches(std::span<const Point> cell, std::span<const Point> outline, const BoundingBox& outline_box,
+             double reach) {
   return std::any_of(cell.begin(), cell.end(), [&](Point p) {
     if (p.x < outline_box.x_low - reach || p.x > outline_box.x_high + reach || p.y < outline_box.y_low - reach ||
         p.y > outline_box.y_high + reach)
@@ -31,21 +33,18 @@ double CellShape::shape_parameter() const { return perimeter * perimeter / (4.0 
 
 std::vector<CellShape> cell_shapes(const Tissue& tissue, const StateView& state) {
   std::vector<CellShape> shapes;
-  Polygon polygon;
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
-    cell_polygon(tissue, state, cell, polygon);
-    shapes.push_back({signed_area(polygon), perimeter(polygon), centroid(polygon)});
+    const auto x = state.x.subspan(tissue.first_vertex(cell), tissue.vertex_count(cell));
+    const auto y = state.y.subspan(tissue.first_vertex(cell), tissue.vertex_count(cell));
+    shapes.push_back({signed_area(x, y), perimeter(x, y), centroid(x, y)});
   }
   return shapes;
 }
 
 std::vector<double> area_strains(const Tissue& tissue, const StateView& state) {
   std::vector<double> strains;
-  Polygon polygon;
-  for (int cell = 0; cell < tissue.cell_count(); ++cell) {
-    cell_polygon(tissue, state, cell, polygon);
-    strains.push_back(signed_area(polygon) / tissue.material(cell).rest_area - 1.0);
-  }
+  for (const CellShape& shape : cell_shapes(tissue, state))
+    strains.push_back(shape.area / tissue.material(static_cast<int>(strains.size())).rest_area - 1.0);
   return strains;
 }
 
@@ -54,7 +53,7 @@ std::vector<int> adjacent_cells(const Tissue& tissue, const StateView& state, st
   std::vector<int> cells;
   if (outline.empty()) return cells;
   const double reach = std::sqrt(rest_area / std::numbers::pi);
-  const Box box = bounding_box(outline);
+  const BoundingBox box = bounding_box(outline);
   Polygon polygon;
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
     cell_polygon(tissue, state, cell, polygon);

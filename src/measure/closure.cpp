@@ -16,7 +16,8 @@ void check(const WoundSeries& series) {
   for (std::size_t i = 0; i < series.time.size(); ++i) {
     if (!(series.area[i] >= 0.0)) throw InputError(fmt::format("wound area {} at sample {}", series.area[i], i));
     if (i > 0 && !(series.time[i] > series.time[i - 1]))
-      throw InputError(fmt::format("times do not increase at sample {}: {} after {}", i, series.time[i], series.time[i - 1]));
+      throw InputError(
+          fmt::format("times do not increase at sample {}: {} after {}", i, series.time[i], series.time[i - 1]));
   }
 }
 

@@ -23,7 +23,7 @@ Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, do
 
 bool inside_other_cell(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, int own_cell, Point p) {
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
-    const Box& box = grid.box(cell);
+    const BoundingBox& box = grid.box(cell);
     if (cell == own_cell || p.x < box.x_low || p.x > box.x_high || p.y < box.y_low || p.y > box.y_high) continue;
     bool inside = false;
     int a = tissue.end_vertex(cell) - 1;
@@ -79,11 +79,12 @@ class DiscTest {
   /// the segments before it are likely to block this vertex too.
   int test(int v, int hint) {
     constexpr double saturation = 1.25;
-    const Point centre = rule_ == ExposureRule::probe_disc ? probe_centre(tissue_, grid_, v, radius_)
-                                                           : Point{state_.x[v], state_.y[v]};
+    const Point centre =
+        rule_ == ExposureRule::probe_disc ? probe_centre(tissue_, grid_, v, radius_) : Point{state_.x[v], state_.y[v]};
     least_ = saturation * saturation * radius_ * radius_;
     bool blocked = false;
-    for (int i = 0; i < 3 && hint >= 0 && !blocked; ++i, hint = tissue_.previous(hint)) blocked = blocks(v, hint, centre);
+    for (int i = 0; i < 3 && hint >= 0 && !blocked; ++i, hint = tissue_.previous(hint))
+      blocked = blocks(v, hint, centre);
     if (!blocked)
       blocked = grid_.visit_near({centre.x, centre.x, centre.y, centre.y}, saturation * radius_,
                                  [&](int segment) { return blocks(v, segment, centre); });

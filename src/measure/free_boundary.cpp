@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <compare>
+#include <numbers>
+
 #include "measure/boundary_pieces.hpp"
 #include "suture/errors.hpp"
 
@@ -10,11 +13,11 @@ namespace {
 
 double cross(Point o, Point a, Point b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
 
-/// Where an exposed vertex stands on the boundary.
+/// Where an exposed vertex stands on the boundary: on a piece, or `step` vertices past its end (before its start).
 struct Place {
   int loop, order;
   double parameter;
-  int vertex;
+  int step, vertex;
   friend auto operator<=>(const Place&, const Place&) = default;
 };
 
@@ -22,6 +25,7 @@ struct Place {
 
 struct FreeBoundary::Impl {
   Membrane membrane;
+  double rho = 0.0;  ///< probe radius in use
   SegmentGrid grid;
   Exposure exposure;
   BoundaryPieces boundary;
@@ -29,14 +33,19 @@ struct FreeBoundary::Impl {
   std::vector<int> loop_of, order_of, size_order;
   std::vector<Place> places;
 
+  void link(const Tissue& tissue);
   void trace(const Tissue& tissue, const StateView& state);
   void add_to_loop(BoundaryLoop& loop, const Piece& piece, Point origin);
   void place_vertices(const Tissue& tissue);
-  int nearest_piece(const Tissue& tissue, int vertex, double& parameter) const;
+  const Piece* own_arc(int vertex) const;
+  const Piece* piece_before(const Tissue& tissue, int vertex, int& step) const;
+  const Piece* piece_after(const Tissue& tissue, int vertex, int& step) const;
+  bool reaches(Point a, Point b) const;
+  Place at(const Piece& piece, double parameter, int step, int vertex) const;
 };
 
 void FreeBoundary::Impl::add_to_loop(BoundaryLoop& loop, const Piece& piece, Point origin) {
-  const double rho = membrane.probe_radius(), offset = membrane.half_width();
+  const double offset = membrane.half_width();
   constexpr double arc_step = 0.25;  // radians: the chord of an arc of radius s/2 stays within 0.004 s of it
   loop.outline.push_back(boundary.point(piece, piece.low, offset));
   if (piece.arc) {
@@ -54,6 +63,19 @@ void FreeBoundary::Impl::add_to_loop(BoundaryLoop& loop, const Piece& piece, Poi
   }
   if (piece.high_cut >= 0) loop.outline.push_back(boundary.point(piece, piece.high, offset));
   loop.signed_area += 0.5 * cross(origin, piece.end, boundary.pieces()[piece.next].start);
+}
+
+/// Membranes exactly parallel and exactly 2 rho apart, which only drawn tissues have, leave lines whose coverage
+/// rounding decides; a probe larger by one part in 1e9 settles them.
+void FreeBoundary::Impl::link(const Tissue& tissue) {
+  constexpr double rounding = 1e-6, enlargement = 1e-9;
+  constexpr int attempts = 3;
+  rho = membrane.probe_radius();
+  boundary.evaluate(tissue, grid, exposure, rho);
+  for (int i = 1; i < attempts && boundary.largest_gap() > rounding * rho; ++i) {
+    rho = membrane.probe_radius() * (1.0 + i * enlargement);
+    boundary.evaluate(tissue, grid, exposure, rho);
+  }
 }
 
 void FreeBoundary::Impl::trace(const Tissue& tissue, const StateView& state) {
@@ -78,40 +100,67 @@ void FreeBoundary::Impl::trace(const Tissue& tissue, const StateView& state) {
   }
 }
 
-int FreeBoundary::Impl::nearest_piece(const Tissue& tissue, int vertex, double& parameter) const {
-  // The probe of a vertex sits in the middle of its arc.
-  for (const Piece& piece : boundary.of_vertex(vertex))
-    if (piece.arc && piece.low_cut < 0 && piece.high_cut < 0) {
-      parameter = 0.5 * piece.high;
-      return boundary.index(piece);
-    }
-  const Point p = probe_centre(tissue, grid, vertex, membrane.probe_radius());
-  double least = membrane.probe_radius() * membrane.probe_radius();
-  int best = -1;
-  const auto look_at = [&](const Piece& piece) {
-    const BoundaryPieces::Nearest found = boundary.nearest(piece, p);
-    if (found.squared_distance > least) return;
-    least = found.squared_distance;
-    best = boundary.index(piece);
-    parameter = found.parameter;
-  };
-  for (const Piece& piece : boundary.of_vertex(vertex)) look_at(piece);
-  for (const Piece& piece : boundary.of_vertex(tissue.previous(vertex)))
-    if (!piece.arc) look_at(piece);
-  if (best < 0)
-    for (const Piece& piece : boundary.pieces()) look_at(piece);
-  return best;
+/// The piece of the vertex's own arc that holds the middle of the arc, where its probe sits.
+const Piece* FreeBoundary::Impl::own_arc(int vertex) const {
+  for (const Piece& piece : boundary.of_vertex(vertex)) {
+    if (!piece.arc) continue;
+    if (piece.low_cut < 0 && piece.high_cut < 0) return &piece;
+    if (piece.low <= boundary.middle_of_arc(vertex) && boundary.middle_of_arc(vertex) <= piece.high) return &piece;
+  }
+  return nullptr;
+}
+
+/// The last piece met going back along the membrane, no farther than half a probe's circumference.
+const Piece* FreeBoundary::Impl::piece_before(const Tissue& tissue, int vertex, int& step) const {
+  double length = 0.0;
+  step = 0;
+  for (int v = tissue.previous(vertex); length < std::numbers::pi * rho; v = tissue.previous(v)) {
+    ++step;
+    length += grid[v].length;
+    if (!boundary.of_vertex(v).empty()) return &boundary.of_vertex(v).back();
+    if (v == vertex) break;
+  }
+  return nullptr;
+}
+
+const Piece* FreeBoundary::Impl::piece_after(const Tissue& tissue, int vertex, int& step) const {
+  double length = 0.0;
+  step = 0;
+  for (int v = vertex; length < std::numbers::pi * rho; v = tissue.next(v)) {
+    --step;
+    length += grid[v].length;
+    if (!boundary.of_vertex(v).empty()) return &boundary.of_vertex(v).front();
+    if (v == tissue.previous(vertex)) break;
+  }
+  return nullptr;
+}
+
+bool FreeBoundary::Impl::reaches(Point a, Point b) const {
+  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) <= rho * rho;
+}
+
+Place FreeBoundary::Impl::at(const Piece& piece, double parameter, int step, int vertex) const {
+  const int index = boundary.index(piece);
+  return {loop_of[index], order_of[index], parameter, step, vertex};
 }
 
 /// A vertex belongs to the loop its probe's centre lies on. Between concave segments the probe is pushed off its
-/// bisector, so the nearest point of the loop counts; a vertex without any within rho sits in a pocket of its own cell.
+/// bisector: the vertex then stands between the pieces before and after it along the membrane, if they come within rho
+/// of its probe. If none does, it sits in a pocket of its own cell, which no probe can enter.
 void FreeBoundary::Impl::place_vertices(const Tissue& tissue) {
   places.clear();
   for (int v = 0; v < tissue.vertex_count(); ++v) {
     if (!exposure.exposed[v]) continue;
-    double parameter = 0.0;
-    const int piece = nearest_piece(tissue, v, parameter);
-    if (piece >= 0) places.push_back({loop_of[piece], order_of[piece], parameter, v});
+    if (const Piece* arc = own_arc(v)) {
+      places.push_back(at(*arc, 0.5 * (arc->low + arc->high), 0, v));
+      continue;
+    }
+    const Point p = probe_centre(tissue, grid, v, rho);
+    int step = 0;
+    if (const Piece* piece = piece_before(tissue, v, step); piece && reaches(piece->end, p))
+      places.push_back(at(*piece, piece->high, step, v));
+    else if (const Piece* next = piece_after(tissue, v, step); next && reaches(next->start, p))
+      places.push_back(at(*next, next->low, step, v));
   }
   std::sort(places.begin(), places.end());
   for (const Place& place : places) loops[place.loop].vertices.push_back(place.vertex);
@@ -130,7 +179,7 @@ void FreeBoundary::evaluate(const Tissue& tissue, const StateView& state) {
   Impl& m = *impl_;
   m.grid.build(tissue, state, grid_bucket_size(m.membrane));
   measure_exposure(tissue, state, m.grid, m.membrane, ExposureRule::probe_disc, m.exposure);
-  m.boundary.evaluate(tissue, m.grid, m.exposure, m.membrane.probe_radius());
+  m.link(tissue);
   m.trace(tissue, state);
   m.place_vertices(tissue);
   std::erase_if(m.loops, [](const BoundaryLoop& loop) { return loop.signed_area == 0.0; });

@@ -40,13 +40,16 @@ ContactGraph::ContactGraph(int cells, std::vector<CellPair> pairs) : cells_(cell
   for (CellPair& pair : pairs_) {
     pair = ordered(pair.first, pair.second);
     if (pair.first < 0 || pair.second >= cells || pair.first == pair.second)
-      throw InputError(fmt::format("cells {} and {} cannot touch in a tissue of {} cells", pair.first, pair.second, cells));
+      throw InputError(
+          fmt::format("cells {} and {} cannot touch in a tissue of {} cells", pair.first, pair.second, cells));
   }
   std::sort(pairs_.begin(), pairs_.end());
   pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
 }
 
-bool ContactGraph::contains(int a, int b) const { return std::binary_search(pairs_.begin(), pairs_.end(), ordered(a, b)); }
+bool ContactGraph::contains(int a, int b) const {
+  return std::binary_search(pairs_.begin(), pairs_.end(), ordered(a, b));
+}
 
 void ContactGraph::insert(CellPair pair) {
   const auto place = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
@@ -97,7 +100,9 @@ std::vector<Exchange> neighbour_exchanges(const ContactGraph& before, const Cont
   std::ranges::set_difference(after.pairs(), before.pairs(), std::back_inserter(gained));
   std::vector<Exchange> exchanges;
   for (const CellPair& part : lost) {
-    const auto meets_both = [&](int cell) { return after.contains(cell, part.first) && after.contains(cell, part.second); };
+    const auto meets_both = [&](int cell) {
+      return after.contains(cell, part.first) && after.contains(cell, part.second);
+    };
     const auto partner = std::ranges::find_if(
         gained, [&](const CellPair& meet) { return meets_both(meet.first) && meets_both(meet.second); });
     if (partner == gained.end()) continue;

@@ -66,9 +66,9 @@ Point centroid(std::span<const Point> polygon) {
   return {o.x + mx / (3.0 * twice), o.y + my / (3.0 * twice)};
 }
 
-Box bounding_box(std::span<const Point> polygon) {
+BoundingBox bounding_box(std::span<const Point> polygon) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box box{infinity, -infinity, infinity, -infinity};
+  BoundingBox box{infinity, -infinity, infinity, -infinity};
   for (const Point p : polygon) {
     box.x_low = std::min(box.x_low, p.x), box.x_high = std::max(box.x_high, p.x);
     box.y_low = std::min(box.y_low, p.y), box.y_high = std::max(box.y_high, p.y);
@@ -105,7 +105,7 @@ double squared_distance_to_outline(std::span<const Point> polygon, Point point) 
 
 double overlap_area(std::span<const Point> a, std::span<const Point> b, int lines) {
   if (a.empty() || b.empty()) return 0.0;
-  const Box box_a = bounding_box(a), box_b = bounding_box(b);
+  const BoundingBox box_a = bounding_box(a), box_b = bounding_box(b);
   const double low = std::max(box_a.y_low, box_b.y_low), high = std::min(box_a.y_high, box_b.y_high);
   if (!(high > low)) return 0.0;
   const double step = (high - low) / lines;

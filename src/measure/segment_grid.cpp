@@ -15,7 +15,7 @@ void SegmentGrid::measure_segments(const Tissue& tissue, const StateView& state)
   boxes_.resize(tissue.cell_count());
   perimeter_.resize(tissue.cell_count());
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
-    Box box{infinity, -infinity, infinity, -infinity};
+    BoundingBox box{infinity, -infinity, infinity, -infinity};
     double arc = 0.0;
     for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) {
       const int w = v + 1 == tissue.end_vertex(cell) ? tissue.first_vertex(cell) : v + 1;
@@ -38,8 +38,8 @@ void SegmentGrid::measure_segments(const Tissue& tissue, const StateView& state)
 
 void SegmentGrid::choose_buckets(double bucket_size) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Box all{infinity, -infinity, infinity, -infinity};
-  for (const Box& box : boxes_) {
+  BoundingBox all{infinity, -infinity, infinity, -infinity};
+  for (const BoundingBox& box : boxes_) {
     all.x_low = std::min(all.x_low, box.x_low), all.x_high = std::max(all.x_high, box.x_high);
     all.y_low = std::min(all.y_low, box.y_low), all.y_high = std::max(all.y_high, box.y_high);
   }

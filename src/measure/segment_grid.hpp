@@ -27,11 +27,12 @@ struct MembraneSegment {
 
 class SegmentGrid {
  public:
-  /// Keeps its memory between calls. Throws NumericalError for a coordinate that is not finite or a segment without length.
+  /// Keeps its memory between calls. Throws NumericalError for a coordinate that is not finite or a segment without
+  /// length.
   void build(const Tissue& tissue, const StateView& state, double bucket_size);
 
   const MembraneSegment& operator[](int segment) const { return segments_[segment]; }
-  const Box& box(int cell) const { return boxes_[cell]; }
+  const BoundingBox& box(int cell) const { return boxes_[cell]; }
   /// Length of membrane from the cell's first vertex to this one, and all the way round.
   double arc_position(int vertex) const { return arc_[vertex]; }
   double cell_perimeter(int cell) const { return perimeter_[cell]; }
@@ -39,7 +40,7 @@ class SegmentGrid {
   /// Calls visit(segment) for every segment that may come within `reach` of the box, some of them twice; stops and
   /// returns true as soon as visit does.
   template <typename Visit>
-  bool visit_near(const Box& box, double reach, Visit&& visit) const {
+  bool visit_near(const BoundingBox& box, double reach, Visit&& visit) const {
     const double r = reach + 0.5 * bucket_;
     const int i_low = column(box.x_low - r), i_high = column(box.x_high + r);
     const int j_low = row(box.y_low - r), j_high = row(box.y_high + r);
@@ -58,10 +59,10 @@ class SegmentGrid {
   void choose_buckets(double bucket_size);
 
   std::vector<MembraneSegment> segments_;
-  std::vector<Box> boxes_;
+  std::vector<BoundingBox> boxes_;
   std::vector<double> arc_, perimeter_;
   std::vector<int> start_, sorted_, entry_segment_, entry_bucket_;
-  double x_low_ = 0.0, y_low_ = 0.0, bucket_ = 1.0, inverse_bucket_ = 1.0, width_ = 0.0, height_ = 0.0;
+  double x_low_ = 0.0, y_low_ = 0.0, bucket_ = 1.0, inverse_bucket_ = 1.0;
   int columns_ = 1, rows_ = 1;
 };
 

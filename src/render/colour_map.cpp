@@ -12,8 +12,8 @@ struct OklabPoint {
   double a, b;
 };
 constexpr double darkest = 0.40, lightest = 0.93;
-constexpr std::array<OklabPoint, 6> hue_path{{
-    {0.050, -0.140}, {-0.020, -0.125}, {-0.075, -0.055}, {-0.105, 0.020}, {-0.095, 0.105}, {-0.030, 0.150}}};
+constexpr std::array<OklabPoint, 6> hue_path{
+    {{0.050, -0.140}, {-0.020, -0.125}, {-0.075, -0.055}, {-0.105, 0.020}, {-0.095, 0.105}, {-0.030, 0.150}}};
 
 double encode(double linear) {
   const double value = std::clamp(linear, 0.0, 1.0);

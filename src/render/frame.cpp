@@ -76,23 +76,29 @@ struct Layout {
 // Everything around a panel scales with the font, the font with the panel.
 Layout layout_for(double panel_size, bool colour_bar) {
   const double font = std::max(0.024 * panel_size, 11.0);
-  return {.font = font, .left = 0.6 * font, .header = 2.3 * font, .footer = 3.0 * font, .right = (colour_bar ? 7.6 : 0.6) * font};
+  return {.font = font,
+          .left = 0.6 * font,
+          .header = 2.3 * font,
+          .footer = 3.0 * font,
+          .right = (colour_bar ? 7.6 : 0.6) * font};
 }
 
-void draw_header(cairo_t* context, const StripPanel& panel, const PixelBox& box, const Layout& layout, const std::string& letter) {
+void draw_header(cairo_t* context, const StripPanel& panel, const PixelBox& box, const Layout& layout,
+                 const std::string& letter) {
   const double baseline = box.y - 0.7 * layout.font;
   double x = box.x + 0.4 * layout.font;
   set_colour(context, ink);
-  if (!letter.empty()) x += draw_text(context, letter, x, baseline, 1.35 * layout.font, Align::left, true) + 0.8 * layout.font;
+  if (!letter.empty())
+    x += draw_text(context, letter, x, baseline, 1.35 * layout.font, Align::left, true) + 0.8 * layout.font;
   draw_text(context, time_label(panel), x, baseline, 1.1 * layout.font);
   if (panel.style.wound_fraction)
-    draw_text(context, fmt::format("wound {:.0f} %", 100.0 * *panel.style.wound_fraction), box.x + box.width - 0.4 * layout.font,
-              baseline, 1.1 * layout.font, Align::right);
+    draw_text(context, fmt::format("wound {:.0f} %", 100.0 * *panel.style.wound_fraction),
+              box.x + box.width - 0.4 * layout.font, baseline, 1.1 * layout.font, Align::right);
 }
 
 // A line and its meaning, ending at `right`.
-void draw_key(cairo_t* context, const std::string& text, const Colour& colour, bool dashed, double right, double baseline,
-              double font) {
+void draw_key(cairo_t* context, const std::string& text, const Colour& colour, bool dashed, double right,
+              double baseline, double font) {
   set_colour(context, ink);
   const double width = draw_text(context, text, right, baseline, font, Align::right);
   const double dash[] = {0.3 * font, 0.3 * font};
@@ -106,8 +112,8 @@ void draw_key(cairo_t* context, const std::string& text, const Colour& colour, b
   cairo_restore(context);
 }
 
-void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes, const Layout& layout,
-                 double pixels_per_length) {
+void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes,
+                 const Layout& layout, double pixels_per_length) {
   const PixelBox &first = boxes.front(), &last = boxes.back();
   const double y = first.y + first.height + 0.6 * layout.font;
   draw_scale_bar(context, first.x + 0.4 * layout.font, y, 0.2 * first.width,
@@ -121,7 +127,8 @@ void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span
 }
 
 // Panels side by side in the given boxes, which all have the same size.
-void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes, const Layout& layout) {
+void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes,
+                 const Layout& layout) {
   std::vector<CellField> fields;
   for (const StripPanel& panel : panels) fields.push_back(field_of(panel.state, panel.style));
   const ColourScale colours = colours_of(panels, fields);
@@ -133,18 +140,23 @@ void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span
     cairo_clip(context);
     draw_tissue(context, panels[i].state, panels[i].style, fields[i], colours, project(view, box));
     cairo_restore(context);
-    draw_header(context, panels[i], box, layout, panels.size() > 1 ? std::string(1, static_cast<char>('a' + i % 26)) : "");
+    draw_header(context, panels[i], box, layout,
+                panels.size() > 1 ? std::string(1, static_cast<char>('a' + i % 26)) : "");
   }
   draw_footer(context, panels, boxes, layout, project(view, boxes.front()).scale);
   const PixelBox& last = boxes.back();
-  const PixelBox bar{last.x + last.width + layout.font, last.y + 0.15 * last.height, 1.1 * layout.font, 0.7 * last.height};
+  const PixelBox bar{last.x + last.width + layout.font, last.y + 0.15 * last.height, 1.1 * layout.font,
+                     0.7 * last.height};
   if (panels.front().style.coloured) draw_colour_bar(context, colours, bar, layout.font);
 }
 
 }  // namespace
 
 CellField shape_parameter_field(const TissueState& state) {
-  CellField field{{"shape_parameter", "1", "shape parameter p\xc2\xb2/4\xcf\x80""a"}, {}};
+  CellField field{{"shape_parameter", "1",
+                   "shape parameter p\xc2\xb2/4\xcf\x80"
+                   "a"},
+                  {}};
   const StateView view = state.view();
   for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
     const std::size_t first = state.tissue.first_vertex(cell), count = state.tissue.vertex_count(cell);
@@ -158,7 +170,8 @@ void render_frame(const TissueState& state, const FrameStyle& style, const std::
   require_drawable({&panel, 1});
   Canvas canvas(path, style.width, style.height);
   const Layout layout = layout_for(std::min(style.width, style.height), style.coloured);
-  const PixelBox box{layout.left, layout.header, style.width - layout.left - layout.right, style.height - layout.header - layout.footer};
+  const PixelBox box{layout.left, layout.header, style.width - layout.left - layout.right,
+                     style.height - layout.header - layout.footer};
   draw_figure(canvas.context(), {&panel, 1}, {&box, 1}, layout);
   canvas.finish();
 }
@@ -169,9 +182,11 @@ void render_strip(std::span<const StripPanel> panels, int panel_size, const std:
   const double gap = layout.font;
   std::vector<PixelBox> boxes;
   for (std::size_t i = 0; i < panels.size(); ++i)
-    boxes.push_back({layout.left + static_cast<double>(i) * (panel_size + gap), layout.header, 1.0 * panel_size, 1.0 * panel_size});
+    boxes.push_back(
+        {layout.left + static_cast<double>(i) * (panel_size + gap), layout.header, 1.0 * panel_size, 1.0 * panel_size});
   const double width = boxes.back().x + panel_size + layout.right;
-  Canvas canvas(path, static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(layout.header + panel_size + layout.footer)));
+  Canvas canvas(path, static_cast<int>(std::ceil(width)),
+                static_cast<int>(std::ceil(layout.header + panel_size + layout.footer)));
   draw_figure(canvas.context(), panels, boxes, layout);
   canvas.finish();
 }

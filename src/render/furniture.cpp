@@ -48,13 +48,14 @@ void draw_colour_bar(cairo_t* context, const ColourScale& scale, const PixelBox&
   cairo_stroke(context);
   double widest = 0.0;
   for (const double tick : round_ticks(scale.minimum, scale.maximum, 6)) {
-    const double fraction = scale.maximum > scale.minimum ? (tick - scale.minimum) / (scale.maximum - scale.minimum) : 0.5;
+    const double fraction =
+        scale.maximum > scale.minimum ? (tick - scale.minimum) / (scale.maximum - scale.minimum) : 0.5;
     const double y = box.y + box.height * (1.0 - fraction);
     cairo_move_to(context, box.x + box.width, y);
     cairo_line_to(context, box.x + box.width + 0.3 * font_size, y);
     cairo_stroke(context);
-    widest = std::max(widest, draw_text(context, fmt::format("{:.6g}", tick + 0.0), box.x + box.width + 0.55 * font_size,
-                                        y + 0.36 * font_size, font_size));
+    widest = std::max(widest, draw_text(context, fmt::format("{:.6g}", tick + 0.0),
+                                        box.x + box.width + 0.55 * font_size, y + 0.36 * font_size, font_size));
   }
   cairo_save(context);
   cairo_translate(context, box.x + box.width + 1.9 * font_size + widest, box.y + 0.5 * box.height);
@@ -63,13 +64,15 @@ void draw_colour_bar(cairo_t* context, const ColourScale& scale, const PixelBox&
   cairo_restore(context);
 }
 
-void draw_scale_bar(cairo_t* context, double x, double y, double wanted_pixels, double pixels_per_um, double font_size) {
+void draw_scale_bar(cairo_t* context, double x, double y, double wanted_pixels, double pixels_per_um,
+                    double font_size) {
   const double length_um = round_down(wanted_pixels / pixels_per_um);
   const double pixels = length_um * pixels_per_um;
   set_colour(context, ink);
   cairo_rectangle(context, x, y, pixels, 0.32 * font_size);
   cairo_fill(context);
-  draw_text(context, fmt::format("{:g} \xc2\xb5m", length_um), x + 0.5 * pixels, y + 1.5 * font_size, font_size, Align::centre);
+  draw_text(context, fmt::format("{:g} \xc2\xb5m", length_um), x + 0.5 * pixels, y + 1.5 * font_size, font_size,
+            Align::centre);
 }
 
 }  // namespace suture

@@ -75,7 +75,8 @@ void draw_purse_string(cairo_t* context, const TissueState& state, double width,
   const StateView view = state.view();
   const int vertices = state.tissue.vertex_count();
   Outline ring;
-  for (int j = 0; j < state.purse_string.size(); ++j) ring.push_back(projection(view.x[vertices + j], view.y[vertices + j]));
+  for (int j = 0; j < state.purse_string.size(); ++j)
+    ring.push_back(projection(view.x[vertices + j], view.y[vertices + j]));
   const double line = std::max(ring_share * width, 2.0 * smallest_line);
   set_colour(context, purse_string_colour);
   cairo_set_line_width(context, 0.4 * line);

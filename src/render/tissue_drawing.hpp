@@ -8,7 +8,7 @@ namespace suture {
 
 /// Model plane to picture: y points down there.
 struct Projection {
-  double scale = 1.0;  ///< pixels per model length
+  double scale = 1.0;      ///< pixels per model length
   Point origin{0.0, 0.0};  ///< model point shown at pixel `anchor`
   Point anchor{0.0, 0.0};
   Point operator()(double x, double y) const {

@@ -40,14 +40,16 @@ std::vector<Polygon> sector_ring(const SectorRing& ring) {
       return low + inset + fraction * (high - low - 2.0 * inset);
     };
     Polygon cell;
-    for (int i = 0; i <= ring.side_points; ++i) {
+    const double corner = angle(0.0, ring.inner(low));
+    cell.push_back(at(ring.inner(corner), corner));
+    for (int i = 1; i <= ring.side_points; ++i) {
       const double f = static_cast<double>(i) / (ring.side_points + 1);
       const double r = ring.inner(low) + f * (ring.outer(low) - ring.inner(low));
       cell.push_back(at(r, angle(0.0, r)));
     }
     for (int i = 0; i < ring.inner_points; ++i) {
-      const double f = static_cast<double>(i) / (ring.inner_points - 1), r = ring.outer(low + f * (high - low));
-      cell.push_back(at(r, angle(f, r)));
+      const double f = static_cast<double>(i) / (ring.inner_points - 1), a = angle(f, ring.outer(low));
+      cell.push_back(at(ring.outer(a), a));
     }
     for (int i = ring.side_points; i >= 1; --i) {
       const double f = static_cast<double>(i) / (ring.side_points + 1);
@@ -55,8 +57,8 @@ std::vector<Polygon> sector_ring(const SectorRing& ring) {
       cell.push_back(at(r, angle(1.0, r)));
     }
     for (int i = ring.inner_points - 1; i >= 1; --i) {
-      const double f = static_cast<double>(i) / (ring.inner_points - 1), r = ring.inner(low + f * (high - low));
-      cell.push_back(at(r, angle(f, r)));
+      const double f = static_cast<double>(i) / (ring.inner_points - 1), a = angle(f, ring.inner(low));
+      cell.push_back(at(ring.inner(a), a));
     }
     cells.push_back(cell);
   }
@@ -158,8 +160,7 @@ class Pixels {
   template <typename Do>
   void around(Point p, double radius, Do&& act) const {
     for (int j = std::max(0, row(p.y - radius)); j <= std::min(rows_ - 1, row(p.y + radius)); ++j)
-      for (int i = std::max(0, column(p.x - radius)); i <= std::min(columns_ - 1, column(p.x + radius)); ++i)
-        act(i, j);
+      for (int i = std::max(0, column(p.x - radius)); i <= std::min(columns_ - 1, column(p.x + radius)); ++i) act(i, j);
   }
 
   std::vector<char> open;
@@ -170,7 +171,7 @@ class Pixels {
 };
 
 void close_cell(Pixels& pixels, const Polygon& cell, double rho) {
-  const Box box = bounding_box(cell);
+  const BoundingBox box = bounding_box(cell);
   const Point middle{0.5 * (box.x_low + box.x_high), 0.5 * (box.y_low + box.y_high)};
   const double reach = 0.5 * std::max(box.x_high - box.x_low, box.y_high - box.y_low) + rho;
   pixels.around(middle, reach, [&](int i, int j) {

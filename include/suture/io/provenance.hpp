@@ -12,13 +12,13 @@ struct Provenance {
   std::string config_text;      ///< verbatim, as the user wrote it
   std::string resolved_config;  ///< TOML with every default filled in
   std::string command_line;
-  std::string start_time;       ///< ISO 8601, UTC
-  std::string parent;           ///< file this run continues; empty when it starts afresh
+  std::string start_time;  ///< ISO 8601, UTC
+  std::string parent;      ///< file this run continues; empty when it starts afresh
   std::uint64_t seed = 0;
   int threads = 1;
   double position_tolerance = 0.0;  ///< in units of l0(0)
   double rest_length_tolerance = 0.0;
-  UnitParameters units;             ///< what one model unit stands for
+  UnitParameters units;  ///< what one model unit stands for
 };
 
 /// Now, as "2026-11-22T08:47:31Z".

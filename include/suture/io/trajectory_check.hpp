@@ -20,8 +20,8 @@ struct FileReport {
 };
 
 /// Checks a trajectory (.h5), a summary (.json) or a wound table (.csv). A trajectory is valid when it carries the
-/// commit mark of a finished run, times increase, numbers are finite, sizes agree, and every cell of every frame and stage
-/// is a counter-clockwise polygon of positive area.
+/// commit mark of a finished run, times increase, numbers are finite, sizes agree, and every cell of every frame and
+/// stage is a counter-clockwise polygon of positive area.
 FileReport check_file(const std::filesystem::path& path);
 
 }  // namespace suture

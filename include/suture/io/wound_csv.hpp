@@ -16,10 +16,10 @@ struct WoundSample {
   std::optional<double> wound_area;
   std::optional<double> mean_shape;  ///< of the wound-adjacent cells
   std::optional<double> perimeter;
-  int ring_size = 0;                 ///< purse-string vertices
-  int parts = 0;                     ///< pieces the wound consists of
-  double shortest_segment = 0.0;     ///< smallest l0/l0(0)
-  double energy = 0.0;
+  int ring_size = 0;              ///< purse-string vertices
+  int parts = 0;                  ///< pieces the wound consists of
+  double shortest_segment = 0.0;  ///< smallest l0/l0(0)
+  std::optional<double> energy;    ///< at the times of stored frames only
 };
 
 /// CSV text with one header line; numbers are the shortest that read back to the same double. wound_area_fraction is

@@ -11,9 +11,9 @@
 namespace suture {
 
 struct CellShape {
-  double area = 0.0;       ///< signed; negative for an inverted cell
+  double area = 0.0;  ///< signed; negative for an inverted cell
   double perimeter = 0.0;
-  Point centre;            ///< centre of area
+  Point centre;  ///< centre of area
   /// A = p^2/(4 pi a): 1 for a circle.
   double shape_parameter() const;
 };

@@ -22,7 +22,8 @@ struct ClosureSummary {
   std::optional<double> closure_rate;
 };
 
-/// Throws InputError for an empty series, unequal lengths, times that do not increase or areas that are negative or NaN.
+/// Throws InputError for an empty series, unequal lengths, times that do not increase or areas that are negative or
+/// NaN.
 ClosureSummary summarise_closure(const WoundSeries& series);
 
 /// First time at or after the maximum at which the area is at most fraction * maximum.

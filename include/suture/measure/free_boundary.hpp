@@ -20,16 +20,16 @@ namespace suture {
 
 /// One closed loop. The cells are on its left: rims run counter-clockwise (positive area), holes clockwise (negative).
 struct BoundaryLoop {
-  double signed_area = 0.0;    ///< enclosed by the path of the probe's centre
-  double length = 0.0;         ///< of that path
-  std::vector<int> vertices;   ///< the exposed vertices (probe_disc) the loop passes, in order
-  Polygon outline;             ///< the loop moved to s/2 from the membrane, arcs as chords; same direction
-  Point inside_probe;          ///< a point of the loop
+  double signed_area = 0.0;   ///< enclosed by the path of the probe's centre
+  double length = 0.0;        ///< of that path
+  std::vector<int> vertices;  ///< the exposed vertices (probe_disc) the loop passes, in order
+  Polygon outline;            ///< the loop moved to s/2 from the membrane, arcs as chords; same direction
+  Point inside_probe;         ///< a point of the loop
 
   bool is_hole() const { return signed_area < 0.0; }
 };
 
-/// Reusable workspace. The result is a pure function of (tissue, state); about 150 us for 45 cells of 30 vertices.
+/// Reusable workspace. The result is a pure function of (tissue, state); about 250 us for 45 cells of 30 vertices.
 class FreeBoundary {
  public:
   explicit FreeBoundary(const Membrane& membrane);

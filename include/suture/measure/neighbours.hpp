@@ -50,7 +50,8 @@ struct Exchange {
 std::vector<Exchange> neighbour_exchanges(const ContactGraph& before, const ContactGraph& after);
 
 /// Counts exchanges along a run. A contact that is only lost (to the wound) or only gained (across it) is no exchange;
-/// the loss and the gain need not be seen at the same time. Feed it graphs with hysteresis so that flicker is not counted.
+/// the loss and the gain need not be seen at the same time. Feed it graphs with hysteresis so that flicker is not
+/// counted.
 class ExchangeCounter {
  public:
   /// Returns the exchanges completed since the last call. The first graph is the reference.

@@ -11,9 +11,9 @@
 namespace suture {
 
 struct Extents {
-  Box box;               ///< of the cell vertices
-  Point centre;          ///< centre of area of all cells
-  double radius = 0.0;   ///< largest distance of a vertex from the centre
+  BoundingBox box;      ///< of the cell vertices
+  Point centre;         ///< centre of area of all cells
+  double radius = 0.0;  ///< largest distance of a vertex from the centre
 };
 /// Throws InputError for a tissue without cells.
 Extents tissue_extents(const Tissue& tissue, const StateView& state);
@@ -24,9 +24,9 @@ double packing_fraction(const Tissue& tissue, const StateView& state, const Memb
 
 /// Is the tissue one patch without holes?
 struct PatchReport {
-  int components = 0;               ///< connected by contact
-  std::vector<double> holes;        ///< areas as Wound::area, largest first; a wound that was asked for is left out
-  std::optional<double> wound_area; ///< the largest hole, when wounded
+  int components = 0;                ///< connected by contact
+  std::vector<double> holes;         ///< areas as Wound::area, largest first; a wound that was asked for is left out
+  std::optional<double> wound_area;  ///< the largest hole, when wounded
 
   double largest_hole() const { return holes.empty() ? 0.0 : holes.front(); }
   bool confluent(double maximum_hole) const { return components == 1 && largest_hole() <= maximum_hole; }

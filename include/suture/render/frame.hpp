@@ -33,18 +33,18 @@ struct ForceArrow {
 
 struct FrameStyle {
   UnitScales scales;  ///< for the scale bar and the time label
-  int width = 1000;     ///< pixels, of render_frame
+  int width = 1000;   ///< pixels, of render_frame
   int height = 1000;
-  std::optional<CellField> field;                 ///< that colours the cells; unset: the shape parameter p^2/(4 pi a)
+  std::optional<CellField> field;  ///< that colours the cells; unset: the shape parameter p^2/(4 pi a)
   std::optional<double> field_minimum, field_maximum;  ///< of the colour bar; unset: from the data
-  bool coloured = true;                           ///< false: all cells in one colour, no colour bar
-  std::optional<double> membrane_width;           ///< s; unset: the mean initial rest length
-  std::optional<View> view;                       ///< unset: the whole tissue
-  double time_origin = 0.0;                       ///< time that the label calls zero
-  std::vector<Point> wound_outline;     ///< shaded when given
-  std::optional<double> wound_fraction;           ///< of its maximum, for the label
-  std::string caption;                            ///< replaces the time label when not empty
-  std::vector<std::vector<Point>> ghosts;  ///< closed outlines drawn dashed, e.g. the shape before loading
+  bool coloured = true;                                ///< false: all cells in one colour, no colour bar
+  std::optional<double> membrane_width;                ///< s; unset: the mean initial rest length
+  std::optional<View> view;                            ///< unset: the whole tissue
+  double time_origin = 0.0;                            ///< time that the label calls zero
+  std::vector<Point> wound_outline;                    ///< shaded when given
+  std::optional<double> wound_fraction;                ///< of its maximum, for the label
+  std::string caption;                                 ///< replaces the time label when not empty
+  std::vector<std::vector<Point>> ghosts;              ///< closed outlines drawn dashed, e.g. the shape before loading
   std::vector<Plate> plates;
   std::vector<ForceArrow> forces;
 };
@@ -59,8 +59,8 @@ struct StripPanel {
 };
 
 /// Draws panels a, b, c ... of panel_size pixels each, with one view, one colour bar and one scale bar for all (each
-/// from its style where given, else wide enough for every panel). Scales, field label and membrane width are those of the
-/// first panel. Throws as render_frame.
+/// from its style where given, else wide enough for every panel). Scales, field label and membrane width are those of
+/// the first panel. Throws as render_frame.
 void render_strip(std::span<const StripPanel> panels, int panel_size, const std::filesystem::path& path);
 
 /// The course of a one-cell experiment (Ton et al. 2023, Fig. 2c and Fig. S5): each state over the dashed outline of

@@ -1,14 +1,13 @@
 #include <catch2/catch.hpp>
-
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/summary.hpp"
 #include "suture/io/trajectory_check.hpp"
-#include "support/file_bytes.hpp"
-#include "support/program.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -23,10 +22,17 @@ std::set<std::string> keys(const json& object) {
 }
 
 RunSummary sample_summary() {
-  return {.status = RunStatus::closed, .seed = 3, .k_a = 16.0, .tau = std::numeric_limits<double>::infinity(),
-          .t_50 = 34.0, .wound_area_initial = 5.5, .closure_rate = 0.1, .healed_shape = 1.7,
+  return {.status = RunStatus::closed,
+          .seed = 3,
+          .k_a = 16.0,
+          .tau = std::numeric_limits<double>::infinity(),
+          .t_50 = 34.0,
+          .wound_area_initial = 5.5,
+          .closure_rate = 0.1,
+          .healed_shape = 1.7,
           .events = {.yield = 5, .capture = 4, .exchange = 3},
-          .solver = {.rate_evaluations = 8000, .steps = 2000}, .wall_s = {{"packing", 1.5}, {"closure", 0.9}},
+          .solver = {.rate_evaluations = 8000, .steps = 2000},
+          .wall_s = {{"packing", 1.5}, {"closure", 0.9}},
           .units = {.rest_area_um2 = 25.0, .constriction_rate_um_per_s = 1.0 / 3.0}};
 }
 
@@ -34,12 +40,33 @@ RunSummary sample_summary() {
 
 TEST_CASE("summary.json has exactly the keys other tools rely on", "[unit]") {
   const json summary = json::parse(to_json(sample_summary()));
-  CHECK(keys(summary) ==
-        std::set<std::string>{"status", "seed", "k_a", "tau", "xi", "t_purse_string", "t_purse_string_min", "t_closed",
-                              "t_closed_min", "t_50", "t_50_min", "t_25", "t_25_min", "t_10", "t_10_min", "t_05",
-                              "t_05_min", "wound_area_initial", "wound_area_initial_um2", "wound_area_max",
-                              "wound_area_max_um2", "closure_rate", "closure_rate_um2_per_min", "healed_shape", "events",
-                              "solver", "wall_s"});
+  CHECK(keys(summary) == std::set<std::string>{"status",
+                                               "seed",
+                                               "k_a",
+                                               "tau",
+                                               "xi",
+                                               "t_purse_string",
+                                               "t_purse_string_min",
+                                               "t_closed",
+                                               "t_closed_min",
+                                               "t_50",
+                                               "t_50_min",
+                                               "t_25",
+                                               "t_25_min",
+                                               "t_10",
+                                               "t_10_min",
+                                               "t_05",
+                                               "t_05_min",
+                                               "wound_area_initial",
+                                               "wound_area_initial_um2",
+                                               "wound_area_max",
+                                               "wound_area_max_um2",
+                                               "closure_rate",
+                                               "closure_rate_um2_per_min",
+                                               "healed_shape",
+                                               "events",
+                                               "solver",
+                                               "wall_s"});
   CHECK(keys(summary["events"]) == std::set<std::string>{"yield", "capture", "exchange"});
   CHECK(keys(summary["solver"]) == std::set<std::string>{"rate_evaluations", "steps", "newton_iterations",
                                                          "linear_iterations", "error_test_failures",

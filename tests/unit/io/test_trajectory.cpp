@@ -1,16 +1,15 @@
-#include <catch2/catch.hpp>
-
 #include <bit>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "support/file_bytes.hpp"
+#include "support/program.hpp"
+#include "support/sample_tissue.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
 #include "suture/io/trajectory_check.hpp"
 #include "suture/version.hpp"
-#include "support/file_bytes.hpp"
-#include "support/program.hpp"
-#include "support/sample_tissue.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -216,7 +215,8 @@ TEST_CASE("files that are not trajectories are refused with the reason", "[unit]
   write_sample(folder.path() / "run.h5");
   std::string bytes = read_bytes(folder.path() / "run.h5");
   write_bytes(folder.path() / "truncated.h5", bytes.substr(0, bytes.size() / 2));
-  CHECK_THROWS_WITH(read_trajectory(folder.path() / "truncated.h5"), Contains("truncated.h5") && Contains("truncated file"));
+  CHECK_THROWS_WITH(read_trajectory(folder.path() / "truncated.h5"),
+                    Contains("truncated.h5") && Contains("truncated file"));
   CHECK(check_file(folder.path() / "truncated.h5").verdict == FileVerdict::unreadable);
 
   const std::size_t schema = bytes.find("suture-trajectory");

@@ -1,13 +1,12 @@
 #include <catch2/catch.hpp>
-
 #include <cstdlib>
 #include <sstream>
 #include <vector>
 
-#include "suture/io/trajectory_check.hpp"
-#include "suture/io/wound_csv.hpp"
 #include "support/file_bytes.hpp"
 #include "support/program.hpp"
+#include "suture/io/trajectory_check.hpp"
+#include "suture/io/wound_csv.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -31,10 +30,15 @@ std::vector<std::vector<std::string>> table(const std::string& text) {
   return rows;
 }
 
-const std::vector<WoundSample> samples{
-    {.time = 0.1, .wound_area = 4.0, .mean_shape = 1.0 / 3.0, .perimeter = 8.0, .ring_size = 63, .parts = 1, .energy = -2.5},
-    {.time = 0.6, .wound_area = 5.0, .parts = 1},
-    {.time = 1.1}};
+const std::vector<WoundSample> samples{{.time = 0.1,
+                                        .wound_area = 4.0,
+                                        .mean_shape = 1.0 / 3.0,
+                                        .perimeter = 8.0,
+                                        .ring_size = 63,
+                                        .parts = 1,
+                                        .energy = -2.5},
+                                       {.time = 0.6, .wound_area = 5.0, .parts = 1},
+                                       {.time = 1.1}};
 
 }  // namespace
 

@@ -1,15 +1,14 @@
 #include <catch2/catch.hpp>
-
 #include <cctype>
 #include <numbers>
 #include <set>
 #include <vector>
 
-#include "suture/errors.hpp"
-#include "suture/render/frame.hpp"
 #include "support/file_bytes.hpp"
 #include "support/program.hpp"
 #include "support/sample_tissue.hpp"
+#include "suture/errors.hpp"
+#include "suture/render/frame.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -165,7 +164,8 @@ TEST_CASE("what cannot be drawn is refused", "[unit]") {
   CHECK_THROWS_AS(render_strip({}, 200, folder.path() / "frame.png"), InputError);
   CHECK_THROWS_AS(render_frame(sample_tissue(), style, folder.path() / "missing" / "frame.png"), FileError);
   style.field = CellField{{"area", "area", ""}, {1.0}};
-  CHECK_THROWS_WITH(render_frame(sample_tissue(), style, folder.path() / "frame.png"), Contains("1 values for 18 cells"));
+  CHECK_THROWS_WITH(render_frame(sample_tissue(), style, folder.path() / "frame.png"),
+                    Contains("1 values for 18 cells"));
   style.field.reset();
   style.width = -1;
   CHECK_THROWS_AS(render_frame(sample_tissue(), style, folder.path() / "frame.png"), InputError);

@@ -1,0 +1,123 @@
+#include "suture/simulate/run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+
+#include "simulate/run_recorder.hpp"
+#include "suture/errors.hpp"
+#include "suture/io/units.hpp"
+#include "suture/setup/protocol.hpp"
+#include "suture/simulate/closure.hpp"
+
+namespace suture {
+
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+struct Prepared {
+  std::map<Stage, TissueState> stages;  ///< ends of the stages that were run
+  Stage last = Stage::packing;
+  TissueState state;
+};
+
+/// Everything before the closure: run, or taken from an earlier run. Materials are those of this configuration, so that
+/// one packing serves many parameter points.
+Prepared prepare(const RunRequest& request, const Config& config, RunSummary& summary) {
+  const Stopwatch watch;
+  Prepared prepared;
+  const auto keep = [&](Stage stage, const TissueState& state) { prepared.stages.insert_or_assign(stage, state); };
+  Preparation result;
+  if (config.run.start_from.empty()) {
+    result = prepare_tissue(config, request.progress, keep);
+  } else {
+    auto [stage, state] = read_last_stage(config.run.start_from);
+    if (stage == Stage::closure) throw InputError(fmt::format("{}: the run is complete; nothing is left to continue", config.run.start_from));
+    result = continue_preparation(config, stage, std::move(state), request.progress, keep);
+  }
+  prepared.last = result.stage;
+  prepared.state = std::move(result.state);
+  summary.wall_s["preparation"] = watch.seconds();
+  summary.solver += result.relaxation;
+  return prepared;
+}
+
+RunStatus run_status(ClosureStatus status) {
+  switch (status) {
+    case ClosureStatus::closed: return RunStatus::closed;
+    case ClosureStatus::reached_end: return RunStatus::reached_t_end;
+    case ClosureStatus::stopped: return RunStatus::stopped;
+    case ClosureStatus::opened: return RunStatus::failed;
+  }
+  return RunStatus::failed;
+}
+
+void close_wound(const Config& config, TissueState state, RunRecorder& recorder, TrajectoryWriter& writer, RunOutcome& outcome) {
+  const Stopwatch watch;
+  TissueState last_good;
+  try {
+    const ClosureResult result = run_closure(config, std::move(state), recorder, last_good);
+    outcome.summary.status = run_status(result.status);
+    outcome.summary.t_closed = result.t_closed;
+    outcome.summary.solver += result.statistics;
+    if (result.status == ClosureStatus::opened) outcome.failure = "the wound has broken through the rim of the tissue";
+    last_good = result.state;
+  } catch (const NumericalError& error) {
+    outcome.summary.status = RunStatus::failed;
+    outcome.failure = error.what();
+  }
+  if (!last_good.values.empty()) writer.write_stage(Stage::closure, last_good);
+  outcome.summary.wall_s["closure"] = watch.seconds();
+}
+
+RunSummary start_summary(const Config& config) {
+  RunSummary summary;
+  summary.seed = config.tissue.seed;
+  summary.k_a = config.area.stiffness;
+  summary.tau = config.plasticity.tau;
+  summary.xi = config.plasticity.memory;
+  summary.units = config.units;
+  return summary;
+}
+
+}  // namespace
+
+RunOutcome run_protocol(const RunRequest& original) {
+  RunRequest request = original;
+  request.config = with_contact_distance(request.config);
+  const Config& config = request.config;
+  RunOutcome outcome{start_summary(config), {}};
+  std::filesystem::create_directories(request.directory);
+  TrajectoryWriter writer(request.directory / "run.h5", request.provenance);
+  RunRecorder recorder(request, writer);
+  try {
+    Prepared prepared = prepare(request, config, outcome.summary);
+    for (const auto& [stage, state] : prepared.stages) writer.write_stage(stage, state);
+    writer.commit();
+    outcome.summary.status = RunStatus::reached_t_end;
+    if (config.run.last_stage == Stage::closure)
+      close_wound(config, std::move(prepared.state), recorder, writer, outcome);
+    else
+      writer.write_frame(prepared.state);
+  } catch (const NumericalError& error) {
+    outcome.summary.status = RunStatus::failed;
+    outcome.failure = error.what();
+  }
+  recorder.summarise(outcome.summary);
+  writer.write_summary(outcome.summary);
+  writer.close();
+  write_summary(outcome.summary, request.directory / "summary.json");
+  recorder.write_csv();
+  recorder.draw();
+  return outcome;
+}
+
+}  // namespace suture
