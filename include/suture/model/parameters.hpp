@@ -126,7 +126,7 @@ struct PackingParameters {
   double shape_noise = 0.01;       ///< random radial displacement of the first polygons' corners, relative
   double wall_energy = 1.0;        ///< e_cb
   double wall_range = 0.5;         ///< sigma, in units of s
-  double step_tolerance = 1e-3;    ///< largest force component before the next compression step
+  double step_tolerance = 2e-3;    ///< largest force component before the next compression step
   double force_tolerance = 1e-6;   ///< largest force component of the finished packing
   int maximum_iterations = 200000; ///< FIRE iterations per minimisation
   int attempts = 3;                ///< packings tried, each from its own random numbers, until one is accepted
