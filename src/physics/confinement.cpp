@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "physics/numerical_failure.hpp"
 #include "physics/pair_hessian.hpp"
 #include "suture/errors.hpp"
@@ -11,8 +13,10 @@ namespace suture {
 /// Calls visit(vertex, unit vector outwards, r, 1 - (R - r)/sigma) for every vertex the wall acts on.
 template <class Visit>
 void Confinement::for_each_pressed(const StateView& state, Visit&& visit) const {
+  const double free_radius = std::max(radius_ - range_, 0.0);
   for (int v = 0; v < vertices_; ++v) {
     const Point arm = point_at(state, v) - Point{center_x_, center_y_};
+    if (squared_norm(arm) < free_radius * free_radius) continue;
     const double r = norm(arm), depth = 1.0 - (radius_ - r) / range_;
     if (!(depth > 0.0)) continue;
     if (r == 0.0)

@@ -41,7 +41,7 @@ FireOptions fire_options(const Tissue& tissue, const ContactParameters& contact,
   return {.force_tolerance = force_tolerance,
           .maximum_iterations = maximum_iterations,
           .initial_time_step = 0.25 * time,
-          .maximum_time_step = 1.25 * time,
+          .maximum_time_step = 1.1 * time,
           .minimum_time_step = 0.01 * time,
           .maximum_displacement = 0.1 * *contact.distance};
 }

@@ -101,7 +101,6 @@ class Compression {
 
   Packing run() {
     minimise(options_.step_tolerance);
-    // The cells give way, so the last steps approach the final fraction geometrically.
     const double enough = options_.final_fraction - 0.02 * options_.increment;
     constexpr int patience = 10;
     double progress_mark = packing_.report.fraction;
@@ -117,10 +116,16 @@ class Compression {
   }
 
  private:
+  /// One step of the wall. The cells give way by shrinking and folding, so a step gains less than it asks for; the last
+  /// ones ask for more by what the step before it lacked.
   void compress() {
     PackingReport& report = packing_.report;
-    const double target = std::min(report.fraction + options_.increment, options_.final_fraction);
-    const double factor = std::sqrt(report.fraction / target);
+    constexpr double least_response = 0.1;
+    if (report.compression_steps > 0)
+      response_ = std::clamp((report.fraction - before_) / asked_, least_response, 1.0);
+    before_ = report.fraction;
+    asked_ = std::min(options_.increment, (options_.final_fraction - before_) / response_);
+    const double factor = std::sqrt(before_ / (before_ + asked_));
     packing_.wall_radius *= factor;
     draw_in(packing_.state, factor);
     ++report.compression_steps;
@@ -164,6 +169,8 @@ class Compression {
   const Progress& progress_;
   Fire fire_;
   Packing packing_;
+  double before_ = 0.0, asked_ = 0.0;  ///< packing fraction before the last step, and the rise it asked for
+  double response_ = 1.0;              ///< what such a step gains of what it asks for
 };
 
 }  // namespace

@@ -126,7 +126,7 @@ struct PackingParameters {
   double shape_noise = 0.01;       ///< random radial displacement of the first polygons' corners, relative
   double wall_energy = 1.0;        ///< e_cb
   double wall_range = 0.5;         ///< sigma, in units of s
-  double step_tolerance = 1e-3;    ///< largest force component before the next compression step
+  double step_tolerance = 2e-3;    ///< largest force component before the next compression step
   double force_tolerance = 1e-6;   ///< largest force component of the finished packing
   int maximum_iterations = 200000; ///< FIRE iterations per minimisation
   int attempts = 3;                ///< packings tried, each from its own random numbers, until one is accepted
@@ -153,6 +153,7 @@ struct WoundParameters {
 
 struct CompressionParameters {
   double gap = 0.7;         ///< distance between the plates while compressed, in units of the cell's diameter
+  double closing_time = 1.0;///< in which the plates close at constant speed; part of T
   double duration = 100.0;  ///< T
   double recovery = 200.0;  ///< time observed after release
   double plate_energy = 1.0;///< plate stiffness, as the confinement law
