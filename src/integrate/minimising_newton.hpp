@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "ode/aligned_buffer.hpp"
-#include "ode/kernels/kernels.hpp"
+#include "kernels/aligned_buffer.hpp"
+#include "kernels/kernels.hpp"
 #include "suture/ode/ode_system.hpp"
 
 namespace suture {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "ode/aligned_buffer.hpp"
-#include "ode/kernels/kernels.hpp"
+#include "kernels/aligned_buffer.hpp"
+#include "kernels/kernels.hpp"
 
 using namespace suture;
 
