@@ -8,6 +8,7 @@
 #include <cmath>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "integrate/failure_report.hpp"
 #include "integrate/fused_nvector.hpp"
@@ -19,6 +20,8 @@ namespace suture {
 namespace {
 
 constexpr double nonlinear_coefficient = 0.1;  // CVODE's own default, stated because the early exit needs it
+constexpr double time_resolution = 1e-13;      // shortest step relative to the time; a shorter one is a failure
+constexpr double latest_time = 1e300;          // stands for "no limit" and replaces an earlier one
 
 class CvodeIntegrator final : public Integrator {
  public:
@@ -42,7 +45,7 @@ class CvodeIntegrator final : public Integrator {
   int solve_step(N_Vector correction, double tolerance);
   static int rate(double t, N_Vector y, N_Vector out, void* self);
   static int weights(N_Vector y, N_Vector w, void* self);
-  [[noreturn]] void fail(int flag);
+  [[noreturn]] void fail(const char* what, int flag);
 
   GradientFlowSystem* system_;
   IntegratorOptions options_;
@@ -53,6 +56,7 @@ class CvodeIntegrator final : public Integrator {
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
   std::int64_t rates_ = 0;
+  std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
   std::exception_ptr exception_;  // thrown inside a callback; exceptions must not cross C frames
 };
 
@@ -61,7 +65,8 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
     : system_(&system),
       options_(options),
       newton_(system, {.weight = 1.0 / options.position_tolerance, .largest_move = options.largest_move}),
-      time_(t) {
+      time_(t),
+      unconverged_(y.size()) {
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
   y_ = make_fused_vector(y.size(), context_);
   psi_ = make_fused_vector(y.size(), context_);
@@ -143,7 +148,10 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   // components is what counts there, hence the ratio of lengths.
   const double ratio = std::sqrt(static_cast<double>(out.size()) / static_cast<double>(n));
   const NewtonTarget target{.tolerance = tolerance, .give_up = 1.2 * ratio * tolerance / nonlinear_coefficient};
-  if (newton_.solve(gamma, out.first(n), target) != NewtonResult::converged) return SUN_NLS_CONV_RECVR;
+  if (newton_.solve(gamma, out.first(n), target) != NewtonResult::converged) {
+    std::copy_n(newton_.obstacle().begin(), n, unconverged_.begin());
+    return SUN_NLS_CONV_RECVR;
+  }
   system_->recover_memory(out.first(n), out.subspan(n));
   for (std::size_t k = 0; k < out.size(); ++k) out[k] -= start[k];
   return SUN_NLS_SUCCESS;
@@ -174,25 +182,25 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
 
 double CvodeIntegrator::step(double limit) {
   const double before = time_;
-  if (std::isfinite(limit)) check(CVodeSetStopTime(cvode_, limit), "CVodeSetStopTime");
-  const int flag = CVode(cvode_, limit, y_, &time_, CV_ONE_STEP);
+  check(CVodeSetMinStep(cvode_, time_resolution * std::abs(before)), "CVodeSetMinStep");
+  // CVODE takes the scale of its first step from the time it is asked for, which must be finite.
+  check(CVodeSetStopTime(cvode_, std::min(limit, latest_time)), "CVodeSetStopTime");
+  const int flag = CVode(cvode_, std::isfinite(limit) ? limit : before + 1.0, y_, &time_, CV_ONE_STEP);
   if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
-  if (flag < 0) fail(flag);
+  if (flag == CV_CONV_FAILURE || flag == CV_NLS_FAIL) fail("the implicit step did not converge", flag);
+  if (flag == CV_ERR_FAILURE) fail("the error test failed repeatedly", flag);
+  if (flag < 0) fail("the integrator gave up", flag);
   last_step_ = time_ - before;
-  if (!(last_step_ > 0.0))
-    throw NumericalError(fmt::format("the step size fell below the resolution of time at t = {:.9g}", time_));
+  if (!(last_step_ > 0.0)) fail("the step size fell below the resolution of time", flag);
   return time_;
 }
 
-void CvodeIntegrator::fail(int flag) {
+void CvodeIntegrator::fail(const char* what, int flag) {
   double h = 0.0;
   CVodeGetCurrentStep(cvode_, &h);
-  const char* what = flag == CV_CONV_FAILURE || flag == CV_NLS_FAIL ? "the implicit step did not converge"
-                     : flag == CV_ERR_FAILURE                         ? "the error test failed repeatedly"
-                                                                      : "the integrator gave up";
-  CVodeGetEstLocalErrors(cvode_, interpolated_);
-  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), values(interpolated_), options_) +
-                       fmt::format(" (CVODE {})", flag));
+  std::span<const double> errors = unconverged_;
+  if (flag == CV_ERR_FAILURE && CVodeGetEstLocalErrors(cvode_, interpolated_) == CV_SUCCESS) errors = values(interpolated_);
+  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_) + fmt::format(" (CVODE {})", flag));
 }
 
 int CvodeIntegrator::last_order() const {

@@ -1,13 +1,13 @@
 #include "integrate/explicit_integrator.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "integrate/failure_report.hpp"
 
 namespace suture {
 
-ExplicitIntegrator::ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
-    : system_(&system), options_(options), time_(t), y_(y.begin(), y.end()) {
+ExplicitIntegrator::ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y, int order)
+    : system_(&system), options_(options), order_(order), time_(t), y_(y.begin(), y.end()) {
   for (auto* v : {&f_, &y_before_, &f_before_, &y_next_, &f_next_}) v->resize(y.size());
   evaluate_or_fail(t, y_, f_);
 }
@@ -43,7 +43,7 @@ void ExplicitIntegrator::interpolate(double t, std::span<double> y) const {
 }
 
 void ExplicitIntegrator::fail(const std::string& what, double h, std::span<const double> errors) const {
-  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_));
+  throw NumericalError(failure_report(*system_, what, time_, h, order_, errors, options_));
 }
 
 }  // namespace suture

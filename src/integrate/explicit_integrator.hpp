@@ -10,11 +10,13 @@ namespace suture {
 
 class ExplicitIntegrator : public Integrator {
  public:
-  ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y);
+  /// Throws NumericalError when the rate is refused at the start.
+  ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y, int order);
 
   double time() const override { return time_; }
   std::span<const double> state() const override { return y_; }
   double last_step() const override { return last_step_; }
+  int last_order() const override { return order_; }
   /// Cubic Hermite between the ends of the last step.
   void interpolate(double t, std::span<double> y) const override;
   Statistics statistics() const override { return counts_; }
@@ -29,6 +31,7 @@ class ExplicitIntegrator : public Integrator {
 
   OdeSystem* system_;
   IntegratorOptions options_;
+  int order_;
   double time_, last_step_ = 0.0;
   std::vector<double> y_, f_, y_before_, f_before_, y_next_, f_next_;
   Statistics counts_;

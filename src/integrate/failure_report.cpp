@@ -20,7 +20,7 @@ std::string failure_report(const OdeSystem& system, const std::string& what, dou
   const std::size_t shown = std::min<std::size_t>(5, index.size());
   std::partial_sort(index.begin(), index.begin() + static_cast<std::ptrdiff_t>(shown), index.end(),
                     [&](int a, int b) { return weighted(a) > weighted(b); });
-  for (std::size_t k = 0; k < shown; ++k)
+  for (std::size_t k = 0; k < shown && weighted(index[k]) > 0.0; ++k)
     text += fmt::format("{}{} ({:.3g} x tolerance)", k == 0 ? "; worst: " : ", ", system.component_name(index[k]), weighted(index[k]));
   if (!system.refusal().empty()) text += "; last refused state: " + system.refusal();
   return text;

@@ -29,8 +29,8 @@ class FixedStep : public ExplicitIntegrator {
 
 class Euler final : public FixedStep {
  public:
-  using FixedStep::FixedStep;
-  int last_order() const override { return 1; }
+  Euler(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
+      : FixedStep(system, options, t, y, 1) {}
 
  private:
   void advance(double h) override {
@@ -41,8 +41,7 @@ class Euler final : public FixedStep {
 class RungeKutta4 final : public FixedStep {
  public:
   RungeKutta4(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
-      : FixedStep(system, options, t, y), stage_(y.size()), stage_rate_(y.size()) {}
-  int last_order() const override { return 4; }
+      : FixedStep(system, options, t, y, 4), stage_(y.size()), stage_rate_(y.size()) {}
 
  private:
   void advance(double h) override {

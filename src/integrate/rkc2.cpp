@@ -13,13 +13,11 @@ namespace {
 class Rkc2 final : public ExplicitIntegrator {
  public:
   Rkc2(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
-      : ExplicitIntegrator(system, options, t, y), direction_(f_), stage_a_(y.size()), stage_b_(y.size()), stage_f_(y.size()) {
-    counts_.restarts = 0;
+      : ExplicitIntegrator(system, options, t, y, 2), direction_(f_), stage_a_(y.size()), stage_b_(y.size()), stage_f_(y.size()), errors_(y.size()) {
     h_ = options.initial_step;
   }
 
   double step(double limit) override;
-  int last_order() const override { return 2; }
 
  private:
   void estimate_spectral_radius();
@@ -29,7 +27,7 @@ class Rkc2 final : public ExplicitIntegrator {
   double error_norm(double h);
   double norm(std::span<const double> v) const;
 
-  std::vector<double> direction_, stage_a_, stage_b_, stage_f_, errors_;
+  std::vector<double> direction_, stage_a_, stage_b_, stage_f_, errors_;  // errors_: of the last completed attempt
   double h_ = 0.0, radius_ = 0.0;
   int steps_since_radius_ = 0;
 };
@@ -122,20 +120,22 @@ bool Rkc2::stages(double h, int s) {
 
 double Rkc2::error_norm(double h) {
   for (std::size_t k = 0; k < y_.size(); ++k)
-    stage_f_[k] = 0.8 * (y_[k] - y_next_[k]) + 0.4 * h * (f_[k] + f_next_[k]);
-  return norm(stage_f_);
+    errors_[k] = 0.8 * (y_[k] - y_next_[k]) + 0.4 * h * (f_[k] + f_next_[k]);
+  return norm(errors_);
 }
 
 double Rkc2::step(double limit) {
   if (radius_ == 0.0 || steps_since_radius_ >= 25) estimate_spectral_radius();
   if (h_ == 0.0) h_ = first_step();
+  bool refused = false;
   for (int attempt = 0; attempt < 60; ++attempt) {
     double h = h_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     const bool last = time_ + h * 1.01 >= limit;
     if (last) h = limit - time_;
     const int s = std::max(2, 1 + static_cast<int>(std::sqrt(1.54 * h * radius_ + 1.0)));
-    bool good = stages(h, s) && evaluate(time_ + h, y_next_, f_next_) == Evaluation::ok;
+    const bool good = stages(h, s) && evaluate(time_ + h, y_next_, f_next_) == Evaluation::ok;
+    refused = !good;
     const double error = good ? error_norm(h) : 0.0;
     if (good && error <= 1.0) {
       const double factor = std::clamp(0.8 / std::cbrt(std::max(error, 1e-9)), 0.3, 5.0);
@@ -155,7 +155,7 @@ double Rkc2::step(double limit) {
     if (steps_since_radius_ > 0) estimate_spectral_radius();
     if (time_ + h_ == time_) break;
   }
-  fail("the error test failed repeatedly", h_, stage_f_);
+  fail(refused ? "the rate cannot be evaluated" : "the error test failed repeatedly", h_, errors_);
 }
 
 }  // namespace

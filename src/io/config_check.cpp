@@ -85,6 +85,10 @@ class Checker {
     if (config_.run.protocol == Protocol::wound_closure) return;
     require(config_.tissue.cells == 1, "tissue.cells", config_.tissue.cells,
             fmt::format("1 when run.protocol = {}", config_value(config_, "run.protocol")));
+    const CompressionParameters& compression = config_.compression;
+    if (config_.run.protocol == Protocol::compression)
+      require(compression.closing_time <= compression.duration, "compression.closing_time", compression.closing_time,
+              fmt::format("at most compression.duration = {}", compression.duration));
   }
 
   static constexpr double largest_vertex_count = 2e8;  // state offsets are 32-bit integers

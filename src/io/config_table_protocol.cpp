@@ -67,6 +67,8 @@ void add_single_cell_keys(std::vector<ConfigKey<Config>>& rows) {
   add(key<&C::compression, &CompressionParameters::gap>("compression", "gap", {Dimension::none, "cell diameters"},
                                                         above_zero_to(1),
                                                         "distance between the plates while the cell is compressed"));
+  add(key<&C::compression, &CompressionParameters::closing_time>(
+      "compression", "closing_time", time, positive, "time in which the plates close, the first part of the duration"));
   add(key<&C::compression, &CompressionParameters::duration>("compression", "duration", time, positive,
                                                              "time T for which the cell is compressed"));
   add(key<&C::compression, &CompressionParameters::recovery>("compression", "recovery", time, non_negative,

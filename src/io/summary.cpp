@@ -50,6 +50,14 @@ void add_times(Json& json, const RunSummary& summary, double time_min) {
   add("t_05", summary.t_05);
 }
 
+void add_cell(Json& json, const CellOutcome& cell, double area) {
+  json["shape_initial"] = number(cell.shape_initial);
+  json["shape_at_release"] = number(cell.shape_at_release);
+  json["shape_final"] = number(cell.shape_final);
+  json["area_final"] = number(cell.area_final);
+  json["area_final_um2"] = number(cell.area_final * area);
+}
+
 Json solver_counts(const Statistics& solver) {
   return {{"rate_evaluations", solver.rate_evaluations},
           {"steps", solver.steps},
@@ -79,6 +87,7 @@ std::string to_json(const RunSummary& summary) {
   json["closure_rate"] = number(summary.closure_rate);
   json["closure_rate_um2_per_min"] = number(summary.closure_rate, scales.factor(Dimension::area_rate));
   json["healed_shape"] = number(summary.healed_shape);
+  if (summary.cell) add_cell(json, *summary.cell, area);
   json["events"] = {
       {"yield", summary.events.yield}, {"capture", summary.events.capture}, {"exchange", summary.events.exchange}};
   json["solver"] = solver_counts(summary.solver);

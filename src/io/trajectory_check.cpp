@@ -15,6 +15,7 @@
 #include "io/tissue_state_io.hpp"
 #include "suture/errors.hpp"
 #include "suture/geometry/polygon.hpp"
+#include "suture/io/cell_csv.hpp"
 #include "suture/io/summary.hpp"
 #include "suture/io/trajectory.hpp"
 #include "suture/io/wound_csv.hpp"
@@ -97,8 +98,9 @@ FileReport check_summary(const std::string& text) {
   const auto expected = nlohmann::json::parse(to_json(RunSummary{}));
   for (const auto& [key, value] : expected.items())
     if (!found.contains(key)) report(out, fmt::format("key '{}' is missing", key));
+  const auto allowed = nlohmann::json::parse(to_json(RunSummary{.cell = CellOutcome{}}));
   for (const auto& [key, value] : found.items())
-    if (!expected.contains(key)) report(out, fmt::format("key '{}' is not one of ours", key));
+    if (!allowed.contains(key)) report(out, fmt::format("key '{}' is not one of ours", key));
   return out;
 }
 
@@ -109,12 +111,16 @@ bool is_number_or_empty(std::string_view field) {
   return field.empty() || (error == std::errc() && end == field.data() + field.size() && std::isfinite(value));
 }
 
-FileReport check_wound_table(const std::string& text) {
+FileReport check_table(const std::string& text) {
+  const UnitScales scales{UnitParameters{}};
   std::istringstream lines(text);
-  std::string line, header = to_csv({}, UnitScales(UnitParameters{}));
-  header.pop_back();
-  if (!std::getline(lines, line) || line != header) return unreadable("the header line is not that of a wound table");
+  std::string header;
+  std::getline(lines, header);
+  const bool wound = header + '\n' == to_csv(std::span<const WoundSample>{}, scales);
+  if (!wound && header + '\n' != to_csv(std::span<const CellSample>{}, scales))
+    return unreadable("the header line is not that of a wound or cell table");
   FileReport out;
+  std::string line;
   const auto columns = std::count(header.begin(), header.end(), ',');
   double previous = -std::numeric_limits<double>::infinity();
   int rows = 0;
@@ -128,7 +134,7 @@ FileReport check_wound_table(const std::string& text) {
     if (!(time > previous)) report(out, fmt::format("line {}: time does not increase", rows + 2));
     previous = time;
   }
-  out.content = fmt::format("wound table: {} samples", rows);
+  out.content = fmt::format("{} table: {} samples", wound ? "wound" : "cell", rows);
   return out;
 }
 
@@ -142,7 +148,7 @@ FileReport check_file(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   if (!stream.good() && !stream.eof()) return unreadable("it cannot be read");
-  return extension == ".json" ? check_summary(text) : check_wound_table(text);
+  return extension == ".json" ? check_summary(text) : check_table(text);
 }
 
 }  // namespace suture

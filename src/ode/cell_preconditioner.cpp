@@ -72,7 +72,8 @@ void CellPreconditioner::allocate(Batch& batch) {
 
 void CellPreconditioner::clear(Batch& batch) {
   const std::size_t blocks = static_cast<std::size_t>(batch.matrix.rows) * 4 * batch.lanes;
-  std::fill_n(batch.matrix.diagonal, 5 * blocks, 0.0);  // the four arrays are contiguous
+  const kernels::CyclicBatch& m = batch.matrix;
+  for (double* array : {m.diagonal, m.lower1, m.lower2, m.border}) std::fill_n(array, array == m.border ? 2 * blocks : blocks, 0.0);
   for (int row = 0; row < batch.matrix.rows; ++row)
     for (const int component : {0, 3})
       std::fill_n(batch.matrix.diagonal + (row * 4 + component) * batch.lanes, batch.lanes, 1.0);
@@ -121,7 +122,7 @@ void CellPreconditioner::add_shell(Batch& batch, int lane, double gamma) {
     add(batch, lane, next, next, kb * wx * wx, kb * wx * wy, kb * wx * wy, kb * wy * wy);
     add(batch, lane, before, here, kb * ux * vx, kb * ux * vy, kb * uy * vx, kb * uy * vy);
     add(batch, lane, here, next, kb * vx * wx, kb * vx * wy, kb * vy * wx, kb * vy * wy);
-    if (n > 3) add(batch, lane, before, next, kb * ux * wx, kb * ux * wy, kb * uy * wx, kb * uy * wy);
+    add(batch, lane, before, next, kb * ux * wx, kb * ux * wy, kb * uy * wx, kb * uy * wy);
     batch.area_gradient[(2 * here) * width + lane] = h.ax[s];
     batch.area_gradient[(2 * here + 1) * width + lane] = h.ay[s];
   }

@@ -9,6 +9,7 @@
 #include "suture/errors.hpp"
 #include "suture/io/units.hpp"
 #include "suture/setup/protocol.hpp"
+#include "suture/simulate/cell_experiment.hpp"
 #include "suture/simulate/closure.hpp"
 
 namespace suture {
@@ -88,9 +89,17 @@ RunSummary start_summary(const Config& config) {
   return summary;
 }
 
+RunOutcome run_one_cell(const RunRequest& request) {
+  std::filesystem::create_directories(request.directory);
+  const CellExperimentResult result = run_cell_experiment(request.config, request.progress);
+  write_cell_experiment(result, request.config, request.provenance, request.directory);
+  return {summarise(result, request.config), result.failure.value_or("")};
+}
+
 }  // namespace
 
 RunOutcome run_protocol(const RunRequest& original) {
+  if (original.config.run.protocol != Protocol::wound_closure) return run_one_cell(original);
   RunRequest request = original;
   request.config = with_contact_distance(request.config);
   const Config& config = request.config;

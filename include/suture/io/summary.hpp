@@ -20,6 +20,14 @@ struct EventCounts {
   std::int64_t exchange = 0;
 };
 
+/// What a one-cell experiment came to.
+struct CellOutcome {
+  double shape_initial = 0.0;
+  std::optional<double> shape_at_release;  ///< compression: when the plates were taken away
+  double shape_final = 0.0;
+  double area_final = 0.0;
+};
+
 /// Model units. t_50 .. t_05: time since the purse string started at which the wound is that percentage of its
 /// maximum; empty if never. Not every protocol has a wound: what does not apply stays empty and becomes null.
 struct RunSummary {
@@ -34,6 +42,7 @@ struct RunSummary {
   std::optional<double> wound_area_initial, wound_area_max;
   std::optional<double> closure_rate;  ///< 0.95 A_max / (time from A_max to 0.05 A_max)
   std::optional<double> healed_shape;
+  std::optional<CellOutcome> cell;  ///< its keys appear only in summaries of one-cell experiments
   EventCounts events;
   Statistics solver;
   std::map<std::string, double> wall_s;  ///< seconds by stage

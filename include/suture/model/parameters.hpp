@@ -153,6 +153,7 @@ struct WoundParameters {
 
 struct CompressionParameters {
   double gap = 0.7;         ///< distance between the plates while compressed, in units of the cell's diameter
+  double closing_time = 1.0;///< in which the plates close at constant speed; part of T
   double duration = 100.0;  ///< T
   double recovery = 200.0;  ///< time observed after release
   double plate_energy = 1.0;///< plate stiffness, as the confinement law

@@ -1,7 +1,8 @@
 // Two parallel plates that compress a cell from below and above ([P] Fig. 2c).
 //
 //     U = sum_v e [ (1 - q_top/sigma)^2 + (1 - q_bottom/sigma)^2 ],   each for q < sigma
-//     q_top = center_y + gap/2 - y_v,   q_bottom = y_v - center_y + gap/2
+//     q_top = center_y + gap(t)/2 - y_v,   q_bottom = y_v - center_y + gap(t)/2
+//     gap(t) = gap - closing_speed (t - start_time), an explicit function of time
 //
 // Units: energy epsilon, lengths in sqrt(a0). The law of the circular wall (confinement.hpp) on straight walls; each
 // plate keeps acting on vertices that have passed it. Source: model.md section 8; Ton et al. 2023, Fig. 2c.
@@ -14,9 +15,13 @@ namespace suture {
 
 struct ParallelPlates {
   double center_y = 0.0;
-  double gap = 0.0;     ///< distance between the plates
+  double gap = 0.0;     ///< distance between the plates at start_time
   double range = 0.0;   ///< sigma
   double energy = 0.0;  ///< e
+  double closing_speed = 0.0;  ///< of the gap; 0: the plates stand still
+  double start_time = 0.0;
+
+  double gap_at(double t) const { return gap - closing_speed * (t - start_time); }
 };
 
 class Plates final : public EnergyTerm {

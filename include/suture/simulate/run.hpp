@@ -27,7 +27,7 @@ struct RunOutcome {
 };
 
 /// Runs the protocol of `request.config` and writes run.h5, summary.json, wound.csv, final.png, final.svg, strip.png and
-/// frame_*.png. A numerical failure is not thrown: what was computed is written and the outcome says why.
+/// frame_*.png (one-cell experiments: cell.csv instead of wound.csv, no strip). A numerical failure is not thrown: what was computed is written and the outcome says why.
 /// Throws InputError for a bad start file, FileError when the output cannot be written.
 RunOutcome run_protocol(const RunRequest& request);
 

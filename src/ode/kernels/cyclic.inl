@@ -22,12 +22,17 @@ inline Block2<T> operator-(const Block2<T>& a, const Block2<T>& b) {
 inline double square_root(double a) { return std::sqrt(a); }
 inline double maximum(double a, double b) { return a > b ? a : b; }
 
-/// Inverse of a symmetric block after lifting its lowest eigenvalue to `floor`, which keeps the preconditioner definite.
+inline double select(bool m, double a, double b) { return m ? a : b; }
+
+/// Inverse of the pivot `a`. One whose lowest eigenvalue is below `floor` shows an indefinite matrix: it is lifted to the
+/// scale of the diagonal block it came from, which keeps the factors definite and bounded (lifted to the floor only,
+/// they grow by coupling/floor with every row).
 template <class T>
-inline Block2<T> safe_inverse(Block2<T> a, double floor) {
+inline Block2<T> safe_inverse(Block2<T> a, const Block2<T>& original, double floor) {
   const T mean = 0.5 * (a.xx + a.yy), half = 0.5 * (a.xx - a.yy);
   const T lowest = mean - square_root(half * half + a.xy * a.xy);
-  const T lift = maximum(floor - lowest, T{});
+  const T scale = maximum(0.5 * (original.xx + original.yy), T{} + 1.0);
+  const T lift = select(lowest < floor, scale - lowest, T{});
   a.xx += lift, a.yy += lift;
   const T inverse = 1.0 / (a.xx * a.yy - a.xy * a.xy);
   return {a.yy * inverse, -a.xy * inverse, -a.xy * inverse, a.xx * inverse};
@@ -41,6 +46,7 @@ void cyclic_factor(const CyclicBatch& m) {
   const int n = m.rows, p = n - 2;  // p band rows, then the border
   Block2<T>* border[2] = {reinterpret_cast<Block2<T>*>(m.border), reinterpret_cast<Block2<T>*>(m.border) + n};
   for (int i = 0; i < p; ++i) {
+    const Block2<T> original = d[i];
     if (i >= 1) {
       Block2<T> w = l1[i];
       if (i >= 2) {
@@ -52,9 +58,10 @@ void cyclic_factor(const CyclicBatch& m) {
       l1[i] = times(w, d[i - 1]);
       d[i] = d[i] - times_transpose(l1[i], w);
     }
-    d[i] = safe_inverse(d[i], m.floor);
+    d[i] = safe_inverse(d[i], original, m.floor);
   }
   Block2<T> coupling = l1[n - 1];
+  const Block2<T> original[2] = {d[p], d[p + 1]};
   Block2<T> w1[2]{}, w2[2]{};  // the two previous border blocks before scaling by the pivot
   for (int j = 0; j < p; ++j) {
     Block2<T> w[2];
@@ -70,9 +77,9 @@ void cyclic_factor(const CyclicBatch& m) {
     }
     coupling = coupling - times_transpose(border[1][j], w[0]);
   }
-  d[p] = safe_inverse(d[p], m.floor);
+  d[p] = safe_inverse(d[p], original[0], m.floor);
   l1[n - 1] = times(coupling, d[p]);
-  d[p + 1] = safe_inverse(d[p + 1] - times_transpose(l1[n - 1], coupling), m.floor);
+  d[p + 1] = safe_inverse(d[p + 1] - times_transpose(l1[n - 1], coupling), original[1], m.floor);
 }
 
 template <class T>

@@ -75,7 +75,7 @@ struct ContactFactor {
 /// which holds their couplings to rows 0 .. rows-3; lower1[rows-1] couples the two.
 struct CyclicBatch {
   int rows = 0;
-  double floor = 0.05;  ///< lowest pivot eigenvalue; the matrices are I + (something mostly positive)
+  double floor = 0.05;  ///< a pivot eigenvalue below it is lifted; the matrices are I + (something mostly positive)
   double *diagonal = nullptr, *lower1 = nullptr, *lower2 = nullptr, *border = nullptr;  ///< border: 2 * rows blocks
 };
 

@@ -122,14 +122,14 @@ void shell_product(const Shell& s, const ShellHessian& h) {
     Double8 area_change{};
     for (int j = b; j < b + m; j += lanes) {  // change of direction of each segment
       const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
-      store(s.theta + j, load(h.nx + j) * wx + load(h.ny + j) * wy);
+      store(h.ox + j, load(h.nx + j) * wx + load(h.ny + j) * wy);  // scratch until the last pass
       const Mask8 slot = Mask8{0, 1, 2, 3, 4, 5, 6, 7} + (j - b);
       const Mask8 own = (slot >= 1) & (slot <= n);
       area_change += select(own, load(h.ax + j) * load(h.vx + j) + load(h.ay + j) * load(h.vy + j), Double8{});
     }
     for (int j = b; j < b + m; j += lanes) {
       const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
-      const Double8 bend = kb * (2.0 * load(s.theta + j) - load(s.theta + j - 1) - load(s.theta + j + 1));
+      const Double8 bend = kb * (2.0 * load(h.ox + j) - load(h.ox + j - 1) - load(h.ox + j + 1));
       store(s.work_x + j, load(h.sxx + j) * wx + load(h.sxy + j) * wy + bend * load(h.nx + j));
       store(s.work_y + j, load(h.sxy + j) * wx + load(h.syy + j) * wy + bend * load(h.ny + j));
     }

@@ -20,6 +20,7 @@ struct BadConfig {
 // The commands that read a configuration; each is given every BadConfig. {config} stands for the file.
 const std::vector<std::vector<std::string>> reading_commands{
     {"validate", "{config}"},
+    {"run", "{config}", "--out", "out"},
 };
 
 const std::vector<BadConfig> bad_configs{

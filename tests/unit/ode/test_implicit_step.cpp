@@ -1,0 +1,207 @@
+// The matrix and the preconditioner of the implicit step against the assembled Hessian of the terms.
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "support/integration.hpp"
+#include "support/random_tissue.hpp"
+#include "suture/physics/purse_string_chain.hpp"
+#include "suture/physics/purse_string_operations.hpp"
+#include "suture/physics/purse_string_tethers.hpp"
+#include "suture/physics/rest_length_flow.hpp"
+#include "suture/physics/term_sum.hpp"
+
+using namespace suture;
+using namespace suture::test;
+
+namespace {
+
+constexpr double contact_distance = 0.25;
+
+/// Stretched membranes, so that no compressed segment's curvature is left out of the Newton matrix.
+TissueState stretched(std::uint64_t seed, RandomTissueOptions options = {.spacing = 0.95, .roughness = 0.1}) {
+  TissueState state = random_tissue(seed, options);
+  for (double& l0 : state.mutable_view().rest_length) l0 *= 0.6;
+  return state;
+}
+
+Eigen::VectorXd wave(int n) {
+  Eigen::VectorXd v(n);
+  for (int k = 0; k < n; ++k) v[k] = std::sin(1.0 + 1.37 * k);
+  return v;
+}
+
+std::span<const double> span(const Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+std::span<double> span(Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
+
+/// Residual and linearisation at the state's own positions.
+void linearise(TissueOde& ode, const TissueState& state, double gamma) {
+  ode.begin_implicit_step(state.time, gamma, state.values);
+  Eigen::VectorXd residual(ode.position_count());
+  REQUIRE(ode.residual(std::span(state.values).first(ode.position_count()), span(residual)) == Evaluation::ok);
+  ode.linearise();
+}
+
+Eigen::VectorXd conjugate_gradients(TissueOde& ode, const Eigen::VectorXd& b, int& iterations) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), r = b, z = b, p, ap = b;
+  ode.precondition(span(r), span(z));
+  p = z;
+  double rz = r.dot(z);
+  for (iterations = 0; iterations < 200 && r.norm() > 1e-13 * b.norm(); ++iterations) {
+    ode.product(span(p), span(ap));
+    const double step = rz / p.dot(ap);
+    x += step * p;
+    r -= step * ap;
+    ode.precondition(span(r), span(z));
+    const double next = r.dot(z);
+    p = z + next / rz * p;
+    rz = next;
+  }
+  return x;
+}
+
+double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return (a - b).norm() / b.norm(); }
+
+}  // namespace
+
+TEST_CASE("preconditioned conjugate gradients solve what a sparse factorisation of the terms solves", "[unit]") {
+  for (const SpringLaw law : {SpringLaw::quadratic, SpringLaw::relative})
+    for (const std::uint64_t seed : {1, 2}) {
+      const TissueState state = stretched(seed);
+      Config config;
+      config.membrane.law = law;
+      config.contact = contact_law(contact_distance);
+      const double gamma = 0.001;
+      TissueOde ode(state.tissue, 0, ode_options(config.contact, law, false), {});
+      linearise(ode, state, gamma);
+      ode.set_up_preconditioner();
+      const int n = ode.position_count();
+      Eigen::SparseMatrix<double> matrix = gamma * assemble_hessian(make_cell_terms(state.tissue, config), 0.0, state.view());
+      Eigen::SparseMatrix<double> identity(n, n);
+      identity.setIdentity();
+      matrix += identity;
+      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> direct(matrix);
+      REQUIRE(direct.info() == Eigen::Success);
+      const Eigen::VectorXd b = wave(n), expected = direct.solve(b);
+      Eigen::VectorXd product(n);
+      ode.product(span(expected), span(product));
+      int iterations = 0;
+      const Eigen::VectorXd x = conjugate_gradients(ode, b, iterations);
+      CAPTURE(seed, iterations);
+      CHECK(relative_difference(expected, b) > 0.005);
+      CHECK(relative_difference(product, b) < 1e-11);
+      CHECK(relative_difference(x, expected) < 1e-10);
+      CHECK(iterations < 60);
+    }
+}
+
+TEST_CASE("eliminating rest lengths scales the membrane stiffness by (tau + gamma xi)/(tau + gamma)", "[unit]") {
+  for (const double tau : {0.01, 3.0, 1e5}) {
+    const double memory = 0.3, gamma = 0.004;
+    TissueState state = stretched(3);
+    std::vector<CellMaterial> plastic, reduced;
+    for (int c = 0; c < state.tissue.cell_count(); ++c) {
+      CellMaterial material = state.tissue.material(c);
+      material.tau = tau, material.memory = memory;
+      plastic.push_back(material);
+      material.membrane_stiffness *= (tau + gamma * memory) / (tau + gamma);
+      reduced.push_back(material);
+    }
+    state.tissue = state.tissue.with_materials(plastic);
+    std::vector<double> reference;
+    for (const double l0 : state.view().rest_length) reference.push_back(0.9 * l0);
+    TissueOde ode(state.tissue, 0, ode_options(contact_law(contact_distance)), {}, reference);
+    linearise(ode, state, gamma);
+
+    // The reduced cell: the same tension from the smaller stiffness.
+    TissueState equivalent = state;
+    equivalent.tissue = state.tissue.with_materials(reduced);
+    std::vector<double> recovered(state.tissue.vertex_count());
+    ode.recover_memory(std::span(state.values).first(ode.position_count()), recovered);
+    for (int v = 0; v < state.tissue.vertex_count(); ++v) {
+      const int next = state.tissue.next(v);
+      const double l = std::hypot(state.view().x[next] - state.view().x[v], state.view().y[next] - state.view().y[v]);
+      const double l0 = implicit_rest_length(state.view().rest_length[v], gamma, l, reference[v], tau, memory);
+      CHECK(recovered[v] == Approx(l0).epsilon(1e-13));
+      equivalent.mutable_view().rest_length[v] = l - (l - l0) * (tau + gamma) / (tau + gamma * memory);
+    }
+    Config config;
+    config.contact = contact_law(contact_distance);
+    const Eigen::SparseMatrix<double> hessian = assemble_hessian(make_cell_terms(equivalent.tissue, config), 0.0, equivalent.view());
+    const Eigen::VectorXd v = wave(ode.position_count()), expected = v + gamma * (hessian * v);
+    Eigen::VectorXd product(v.size());
+    ode.product(span(v), span(product));
+    CAPTURE(tau);
+    CHECK(relative_difference(expected, v) > 0.01);
+    CHECK(relative_difference(product, expected) < 1e-11);
+  }
+}
+
+TEST_CASE("the preconditioner of cells without neighbours is the exact inverse", "[unit]") {
+  // Rows of cells far apart, of every size: nothing is left out, whatever shares a batch.
+  for (const int least : {3, 4, 5, 6, 20}) {
+    TissueState state = stretched(7, {.rows = 2, .columns = 5, .minimum_vertices = least, .maximum_vertices = least + 4, .spacing = 2.0, .roughness = 0.05});
+    TissueOde ode(state.tissue, 0, ode_options(contact_law(0.1, 0.1, false)), {});
+    for (const double gamma : {0.001, 0.05}) {
+      linearise(ode, state, gamma);
+      ode.set_up_preconditioner();
+      const Eigen::VectorXd b = wave(ode.position_count());
+      Eigen::VectorXd z(b.size()), back(b.size());
+      ode.precondition(span(b), span(z));
+      ode.product(span(z), span(back));
+      CAPTURE(least, gamma);
+      CHECK(relative_difference(z, b) > 0.003);
+      CHECK(relative_difference(back, b) < 1e-10);
+    }
+  }
+}
+
+TEST_CASE("the chain of the purse string is factored exactly, every time anew and for every ring size", "[unit]") {
+  TissueState state = stretched(2, {.rows = 1, .columns = 2, .minimum_vertices = 40, .maximum_vertices = 40, .spacing = 2.0, .roughness = 0.05});
+  for (const int size : {3, 4, 5, 6, 7, 12, 13}) {
+    // A ring of its own, not tethered: points beyond the cells.
+    PurseString string;
+    string.minimum_rest_length = 1e-3;
+    TissueState ringed = state;
+    std::vector<double> x(state.view().x.begin(), state.view().x.end()), y(state.view().y.begin(), state.view().y.end());
+    for (int j = 0; j < size; ++j) {
+      string.vertex.push_back(j);
+      string.spring.push_back({0.2, 0.0, 0.3});
+      string.mode.push_back(TetherMode::attached);
+      x.push_back(std::cos(6.28 * j / size) + 0.05 * std::sin(9.0 * j));
+      y.push_back(std::sin(6.28 * j / size));
+    }
+    ringed.purse_string = string;
+    ringed.values = x;
+    ringed.values.insert(ringed.values.end(), y.begin(), y.end());
+    ringed.values.insert(ringed.values.end(), state.view().rest_length.begin(), state.view().rest_length.end());
+    auto chain = std::make_shared<PurseStringChain>(state.tissue, string, PurseStringParameters{});
+    TissueOde ode(state.tissue, size, ode_options(contact_law(0.05, 0.1, false)), {chain});
+    for (const double gamma : {0.05, 0.002, 0.3}) {  // a set-up must not see what the one before left behind
+      linearise(ode, ringed, gamma);
+      ode.set_up_preconditioner();
+      const Eigen::VectorXd b = wave(ode.position_count());
+      Eigen::VectorXd z(b.size()), back(b.size());
+      ode.precondition(span(b), span(z));
+      ode.product(span(z), span(back));
+      CAPTURE(size, gamma);
+      CHECK(relative_difference(back, b) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("a matrix can be linearised again after it was used", "[unit]") {
+  const TissueState state = stretched(4);
+  TissueOde ode(state.tissue, 0, ode_options(contact_law(contact_distance)), {});
+  linearise(ode, state, 0.01);
+  const Eigen::VectorXd v = wave(ode.position_count());
+  Eigen::VectorXd first(v.size()), second(v.size());
+  ode.product(span(v), span(first));
+  ode.linearise();
+  ode.product(span(v), span(second));
+  CHECK(first.norm() > 1.0);
+  CHECK((first - second).norm() == 0.0);
+}

@@ -1,0 +1,112 @@
+// The three compilations of the kernels agree to rounding, and the vector operations with plain loops.
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "neighbors/contact_list.hpp"
+#include "ode/padded_tissue.hpp"
+#include "support/integration.hpp"
+#include "support/random_tissue.hpp"
+
+using namespace suture;
+using namespace suture::test;
+
+namespace {
+
+std::vector<const kernels::Table*> runnable_tables() {
+  std::vector<const kernels::Table*> tables{&kernels::baseline};
+  if (__builtin_cpu_supports("x86-64-v3")) tables.push_back(&kernels::avx2);
+  if (__builtin_cpu_supports("x86-64-v4")) tables.push_back(&kernels::avx512);
+  return tables;
+}
+
+kernels::ContactScalars scalars(double s, double l1, double l2) {
+  const double e = 0.5, outer = 2.0 * e * l1 / (l2 - l1);
+  return {.cutoff2 = s * s * (1 + l2) * (1 + l2), .inner2 = s * s * (1 + l1) * (1 + l1), .inner_a = -2 * e / s,
+          .inner_b = 2 * e / (s * s), .outer_a = outer * (1 + l2) / s, .outer_b = -outer / (s * s), .self2 = s * s};
+}
+
+/// Everything one table computes from one tissue, as one long list of numbers.
+std::vector<double> everything(const kernels::Table& table, const TissueState& state, SpringLaw law) {
+  PaddedTissue padded(state.tissue, law);
+  const int n = state.tissue.vertex_count();
+  padded.unpack(state.view().x, padded.shell.x);
+  padded.unpack(state.view().y, padded.shell.y);
+  padded.unpack(state.view().rest_length, padded.shell.rest_a);
+  std::fill_n(padded.shell.rest_b, padded.slots(), 0.2);
+  table.shell_gradient(padded.shell);
+  ContactList list(0.26, 0.2, 0.1);
+  list.build(padded.shell, table);
+  const kernels::ContactScalars contact = scalars(0.2, 0.1, 0.3);
+  table.contact_gradient(padded.shell, contact, list.windows().data(), list.windows().size(), list.self_pairs().data(), list.self_pairs().size());
+  std::vector<double> result{static_cast<double>(list.windows().size())};
+  std::vector<double> part(n);
+  const auto keep = [&](double* padded_values) {
+    padded.fold_and_pack(padded_values, part);
+    result.insert(result.end(), part.begin(), part.end());
+  };
+  keep(padded.shell.gx);
+  keep(padded.shell.gy);
+  table.shell_linearise(padded.shell, padded.hessian);
+  std::vector<kernels::ContactFactor> factors(16 * list.windows().size() + list.self_pairs().size());
+  const std::size_t count = table.contact_linearise(padded.shell, contact, list.windows().data(), list.windows().size(),
+                                                    list.self_pairs().data(), list.self_pairs().size(), -100.0, factors.data());
+  REQUIRE(count > 50);
+  result.push_back(static_cast<double>(count));
+  std::vector<double> direction(n);
+  for (int k = 0; k < n; ++k) direction[k] = std::sin(1.7 * k);
+  padded.unpack(direction, padded.hessian.vx);
+  for (int k = 0; k < n; ++k) direction[k] = std::cos(2.1 * k);
+  padded.unpack(direction, padded.hessian.vy);
+  table.shell_product(padded.shell, padded.hessian);
+  table.contact_product(factors.data(), count, padded.hessian.vx, padded.hessian.vy, padded.hessian.ox, padded.hessian.oy);
+  keep(padded.hessian.ox);
+  keep(padded.hessian.oy);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("baseline, AVX2 and AVX-512 kernels agree to rounding", "[unit]") {
+  const auto tables = runnable_tables();
+  for (const SpringLaw law : {SpringLaw::quadratic, SpringLaw::relative})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const TissueState state = random_tissue(seed, {.minimum_vertices = 3, .maximum_vertices = 40});
+      const auto expected = everything(kernels::baseline, state, law);
+      REQUIRE(largest(expected) > 1.0);
+      for (const kernels::Table* table : tables) {
+        const auto got = everything(*table, state, law);
+        CAPTURE(table->name, seed);
+        REQUIRE(got.size() == expected.size());
+        CHECK(largest_difference(got, expected) < 1e-12 * largest(expected));
+      }
+    }
+}
+
+TEST_CASE("the vector operations equal plain loops", "[unit]") {
+  const std::size_t n = 88;
+  alignas(64) static double x[n], y[n], w[n], z[n], z2[n], expected[n];
+  for (std::size_t k = 0; k < n; ++k) x[k] = std::sin(k + 1.0), y[k] = std::cos(3.0 * k), w[k] = 1.0 + 0.1 * k;
+  for (const kernels::Table* table : runnable_tables()) {
+    CAPTURE(table->name);
+    double squares = 0.0, dot = 0.0;
+    for (std::size_t k = 0; k < n; ++k) squares += x[k] * w[k] * x[k] * w[k], dot += x[k] * y[k];
+    CHECK(table->weighted_square_sum(n, x, w) == Approx(squares).epsilon(1e-14));
+    CHECK(table->dot(n, x, y) == Approx(dot).epsilon(1e-13));
+    table->linear_sum(n, 2.5, x, -0.3, y, z);
+    for (std::size_t k = 0; k < n; ++k) expected[k] = 2.5 * x[k] - 0.3 * y[k];
+    CHECK(largest_difference({z, n}, {expected, n}) < 1e-15 * 4);
+    const double c[3] = {1.0, -2.0, 0.7};
+    const double* sources[3] = {x, y, w};
+    table->linear_combination(n, 3, c, sources, z);
+    for (std::size_t k = 0; k < n; ++k) expected[k] = x[k] - 2.0 * y[k] + 0.7 * w[k];
+    CHECK(largest_difference({z, n}, {expected, n}) < 1e-14);
+    const double* terms[2] = {y, w};
+    double* results[2] = {z, z2};
+    table->scale_add_multi(n, 2, c, x, terms, results);
+    for (std::size_t k = 0; k < n; ++k) expected[k] = x[k] + y[k];
+    CHECK(largest_difference({z, n}, {expected, n}) < 1e-15 * 4);
+    for (std::size_t k = 0; k < n; ++k) expected[k] = -2.0 * x[k] + w[k];
+    CHECK(largest_difference({z2, n}, {expected, n}) < 1e-14);
+  }
+}
