@@ -63,7 +63,8 @@ std::string verdict(const RunOutcome& outcome) {
   const auto time = [](const std::optional<double>& t) { return t ? fmt::format("{:.1f}", *t) : std::string("never"); };
   switch (s.status) {
     case RunStatus::closed: return fmt::format("wound closed at t = {}", time(s.t_closed));
-    case RunStatus::reached_t_end: return s.wound_area_max ? fmt::format("end time reached, wound still open (half closed at {})", time(s.t_50)) : "last stage reached";
+    case RunStatus::reached_t_end:
+      return s.wound_area_max ? fmt::format("end time reached, wound still open (half closed at {})", time(s.t_50)) : "finished";
     case RunStatus::stopped: return "stopped early";
     case RunStatus::failed: return "failed";
   }

@@ -20,6 +20,7 @@ namespace suture {
 namespace {
 
 constexpr double nonlinear_coefficient = 0.1;  // CVODE's own default, stated because the early exit needs it
+constexpr double time_resolution = 1e-13;      // shortest step relative to the time; a shorter one is a failure
 constexpr double latest_time = 1e300;          // stands for "no limit" and replaces an earlier one
 
 class CvodeIntegrator final : public Integrator {
@@ -55,7 +56,7 @@ class CvodeIntegrator final : public Integrator {
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
   std::int64_t rates_ = 0;
-  std::vector<double> unconverged_;  // error of the last implicit step that did not converge, rest lengths included
+  std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
   std::exception_ptr exception_;  // thrown inside a callback; exceptions must not cross C frames
 };
 
@@ -147,9 +148,8 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   // components is what counts there, hence the ratio of lengths.
   const double ratio = std::sqrt(static_cast<double>(out.size()) / static_cast<double>(n));
   const NewtonTarget target{.tolerance = tolerance, .give_up = 1.2 * ratio * tolerance / nonlinear_coefficient};
-  const NewtonResult result = newton_.solve(gamma, out.first(n), target);
-  if (result != NewtonResult::converged) {
-    if (result == NewtonResult::not_converged) std::copy_n(newton_.remaining_error().begin(), n, unconverged_.begin());
+  if (newton_.solve(gamma, out.first(n), target) != NewtonResult::converged) {
+    std::copy_n(newton_.obstacle().begin(), n, unconverged_.begin());
     return SUN_NLS_CONV_RECVR;
   }
   system_->recover_memory(out.first(n), out.subspan(n));
@@ -182,6 +182,7 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
 
 double CvodeIntegrator::step(double limit) {
   const double before = time_;
+  check(CVodeSetMinStep(cvode_, time_resolution * std::abs(before)), "CVodeSetMinStep");
   // CVODE takes the scale of its first step from the time it is asked for, which must be finite.
   check(CVodeSetStopTime(cvode_, std::min(limit, latest_time)), "CVodeSetStopTime");
   const int flag = CVode(cvode_, std::isfinite(limit) ? limit : before + 1.0, y_, &time_, CV_ONE_STEP);

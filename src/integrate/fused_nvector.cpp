@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "ode/aligned_buffer.hpp"
-#include "ode/kernels/kernels.hpp"
+#include "kernels/aligned_buffer.hpp"
+#include "kernels/kernels.hpp"
 
 namespace suture {
 

@@ -132,6 +132,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
     if (!line_search()) break;
     k.linear_sum(padded_, 1.0, q_, -1.0, start_, trial_);
     if (norm(k.dot(padded_, trial_, trial_)) > target.give_up) {
+      std::copy_n(trial_, n_, z_);
       ++counts_.early_exits;
       return NewtonResult::too_long;
     }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "ode/aligned_buffer.hpp"
-#include "ode/kernels/kernels.hpp"
+#include "kernels/aligned_buffer.hpp"
+#include "kernels/kernels.hpp"
 #include "suture/ode/ode_system.hpp"
 
 namespace suture {
@@ -39,8 +39,9 @@ class MinimisingNewton {
     std::int64_t residuals = 0, iterations = 0, linear_iterations = 0, hessians = 0, setups = 0, early_exits = 0, failures = 0;
   };
   const Counts& counts() const { return counts_; }
-  /// Estimated remaining error P^-1 F of the last iterate, one per position; zero when the start was refused.
-  std::span<const double> remaining_error() const { return {z_, n_}; }
+  /// Why the last solve did not converge, one per position: the remaining error P^-1 F, or the correction that was too
+  /// long; zero when the start was refused.
+  std::span<const double> obstacle() const { return {z_, n_}; }
 
  private:
   double* vector() { return buffer_.take(n_); }

@@ -24,6 +24,8 @@ void add_packing_keys(std::vector<ConfigKey<Config>>& rows) {
   add(key<&C::packing, &P::wall_energy>(section, "wall_energy", energy, positive, "energy scale of the circular wall"));
   add(key<&C::packing, &P::wall_range>(section, "wall_range", in_contact_distances, positive,
                                        "range sigma of the wall"));
+  add(key<&C::packing, &P::shape_noise>(section, "shape_noise", pure_number, between(0, 0.2),
+                                        "random relative displacement of the corners of the first polygons"));
   add(key<&C::packing, &P::step_tolerance>(section, "step_tolerance", force, positive,
                                            "largest force component left before the next compression step"));
   add(key<&C::packing, &P::force_tolerance>(section, "force_tolerance", force, positive,

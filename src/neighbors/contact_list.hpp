@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "ode/kernels/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace suture {
 

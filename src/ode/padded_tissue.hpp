@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "ode/aligned_buffer.hpp"
-#include "ode/kernels/kernels.hpp"
+#include "kernels/aligned_buffer.hpp"
+#include "kernels/kernels.hpp"
 #include "suture/model/tissue.hpp"
 
 namespace suture {

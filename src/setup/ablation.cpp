@@ -33,8 +33,8 @@ TissueState remove_cells(const TissueState& state, const std::vector<int>& cells
   std::vector<char> removed(state.tissue.cell_count(), 0);
   for (const int cell : cells) {
     if (cell < 0 || cell >= state.tissue.cell_count())
-      throw InputError(fmt::format("cell {} cannot be removed: the tissue has cells 0 to {}", cell,
-                                   state.tissue.cell_count() - 1));
+      throw InputError(
+          fmt::format("cell {} cannot be removed: the tissue has cells 0 to {}", cell, state.tissue.cell_count() - 1));
     if (removed[cell]) throw InputError(fmt::format("cell {} is to be removed twice", cell));
     removed[cell] = 1;
   }
@@ -64,10 +64,9 @@ Ablated ablate(const Config& config, const TissueState& annealed, const Progress
   Ablated ablated;
   ablated.removed = central_cells(annealed, config.wound.cells);
   ablated.state = remove_cells(annealed, ablated.removed);
-  ablated.statistics = relax_overdamped(config, ablated.state, config.wound.relaxation_time,
-                                        [&progress](double fraction, std::string_view text) {
-                                          report_progress(progress, "ablation", fraction, text);
-                                        });
+  ablated.statistics = relax_overdamped(
+      config, ablated.state, config.wound.relaxation_time,
+      [&progress](double fraction, std::string_view text) { report_progress(progress, "ablation", fraction, text); });
   const std::span<const double> rest_lengths = ablated.state.view().rest_length;
   ablated.state.reference_rest_length.assign(rest_lengths.begin(), rest_lengths.end());
   return ablated;

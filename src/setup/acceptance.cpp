@@ -23,11 +23,11 @@ Acceptance judge(const Config& config, const TissueState& state, bool wounded) {
   else if (wounded && !patch.wound_area)
     verdict.reason = "there is no wound inside it: the ablated cells leave no hole, or it is open to the outside";
   else if (wounded && *patch.wound_area < limits.minimum_area)
-    verdict.reason = fmt::format("its wound area {:.3f} is below wound.minimum_area = {}", *patch.wound_area,
-                                 limits.minimum_area);
+    verdict.reason =
+        fmt::format("its wound area {:.3f} is below wound.minimum_area = {}", *patch.wound_area, limits.minimum_area);
   else if (wounded && *patch.wound_area > limits.maximum_area)
-    verdict.reason = fmt::format("its wound area {:.3f} is above wound.maximum_area = {}", *patch.wound_area,
-                                 limits.maximum_area);
+    verdict.reason =
+        fmt::format("its wound area {:.3f} is above wound.maximum_area = {}", *patch.wound_area, limits.maximum_area);
   verdict.accepted = verdict.reason.empty();
   return verdict;
 }

@@ -19,10 +19,9 @@ Annealed anneal(const Config& config, TissueState packed, const Progress& progre
     annealed.energy = move_at_constant_energy(ode, make_cell_terms(state.tissue, resolved), state, velocities,
                                               options.duration, options.time_step);
   }
-  annealed.statistics =
-      relax_overdamped(config, state, options.relaxation_time, [&progress](double fraction, std::string_view text) {
-        report_progress(progress, "anneal", fraction, text);
-      });
+  annealed.statistics = relax_overdamped(
+      config, state, options.relaxation_time,
+      [&progress](double fraction, std::string_view text) { report_progress(progress, "anneal", fraction, text); });
   return annealed;
 }
 

@@ -47,8 +47,7 @@ void remove_rotation(std::span<const double> x, std::span<const double> y, std::
 
 }  // namespace
 
-std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed,
-                                       int attempt) {
+std::vector<double> maxwell_velocities(const TissueState& state, double temperature, std::uint64_t seed, int attempt) {
   const std::size_t count = state.tissue.vertex_count();
   const StateView view = state.view();
   std::vector<double> velocities(2 * count);
@@ -71,8 +70,8 @@ EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, T
   std::vector<double> gradient(state.values.size());
   const auto evaluate = [&] {
     if (ode.gradient(state.time, state.view(), {state.layout(), gradient}) != Evaluation::ok)
-      throw NumericalError(fmt::format("constant-energy motion at time {:.6g}, step {:.3g}: {}", state.time, step,
-                                       ode.refusal()));
+      throw NumericalError(
+          fmt::format("constant-energy motion at time {:.6g}, step {:.3g}: {}", state.time, step, ode.refusal()));
   };
   const auto kick = [&](double time) {
     for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] -= time * gradient[i];

@@ -121,8 +121,7 @@ class Compression {
   void compress() {
     PackingReport& report = packing_.report;
     constexpr double least_response = 0.1;
-    if (report.compression_steps > 0)
-      response_ = std::clamp((report.fraction - before_) / asked_, least_response, 1.0);
+    if (report.compression_steps > 0) response_ = std::clamp((report.fraction - before_) / asked_, least_response, 1.0);
     before_ = report.fraction;
     asked_ = std::min(options_.increment, (options_.final_fraction - before_) / response_);
     const double factor = std::sqrt(before_ / (before_ + asked_));
@@ -133,9 +132,9 @@ class Compression {
 
   void minimise(double force_tolerance) {
     TissueState& state = packing_.state;
-    const auto wall = std::make_shared<Confinement>(0.0, 0.0, packing_.wall_radius,
-                                                    options_.wall_range * membrane_.contact_distance,
-                                                    options_.wall_energy, state.tissue.vertex_count());
+    const auto wall =
+        std::make_shared<Confinement>(0.0, 0.0, packing_.wall_radius, options_.wall_range * membrane_.contact_distance,
+                                      options_.wall_energy, state.tissue.vertex_count());
     TissueOde ode(state.tissue, 0, ode_options_, {wall});
     const FireReport minimised =
         minimise_energy(fire_, ode, state,

@@ -71,7 +71,8 @@ DiscPlacement spread_discs(std::span<const double> radii, double wall_radius, Ra
                             .minimum_time_step = 0.002 * smallest,
                             .maximum_displacement = 0.1 * smallest};
   Fire(q.size()).minimise(
-      q, [&](std::span<const double> at, std::span<double> out) { return overlap_gradient(radii, wall_radius, at, out); },
+      q,
+      [&](std::span<const double> at, std::span<double> out) { return overlap_gradient(radii, wall_radius, at, out); },
       options);
   DiscPlacement placement{.x = {q.begin(), q.begin() + count}, .y = {q.begin() + count, q.end()}};
   placement.deepest_overlap = deepest_overlap(radii, wall_radius, placement.x, placement.y);

@@ -1,5 +1,7 @@
 #include "suture/simulate/closure.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,6 +27,7 @@ class Closure {
   void take_samples(double until);
   void sample(double t);
   void publish_events();
+  void guard_progress(double event_time);
   TissueState state_at(double t) const;
   double since_start(double t) const { return t - start_; }
 
@@ -41,6 +44,8 @@ class Closure {
   std::size_t published_ = 0;
   Statistics finished_;  // of integrators before the present one
   long samples_ = 0;
+  double instant_ = -1e300;
+  int at_instant_ = 0;
   double last_area_ = 0.0;
   ClosureResult result_;
   bool done_ = false;
@@ -139,6 +144,16 @@ void Closure::publish_events() {
   for (; published_ < log_.size(); ++published_) observer_.event(log_[published_]);
 }
 
+/// A run must not repeat one instant for ever: the ring can change only so often before time moves on.
+void Closure::guard_progress(double event_time) {
+  constexpr int most_at_one_instant = 1000;
+  const double resolution = 1e-9 * std::max(1.0, std::abs(event_time));
+  at_instant_ = event_time - instant_ < resolution ? at_instant_ + 1 : 0;
+  if (at_instant_ == 0) instant_ = event_time;
+  if (at_instant_ > most_at_one_instant)
+    throw NumericalError(fmt::format("events of the purse string repeat at t = {:.9g} without time moving on", event_time));
+}
+
 void Closure::step() {
   const std::optional<double> kink = next_kink_time(state_.purse_string, integrator_->time());
   integrator_->step(std::min(end_, kink.value_or(end_)));
@@ -146,6 +161,7 @@ void Closure::step() {
   while (const std::optional<DueEvents> due = events_.find(*integrator_, state_)) {
     TissueState at_event = state_at(due->time);
     if (!events_.apply(*due, at_event, event_wound_, log_)) continue;
+    guard_progress(due->time);
     take_samples(due->time);
     publish_events();
     const double restart_step = 0.1 * integrator_->last_step();

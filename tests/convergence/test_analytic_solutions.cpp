@@ -1,10 +1,9 @@
 // The integrators on problems whose solution is known in closed form, or from the assembled linear system alone.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
-#include <unsupported/Eigen/MatrixFunctions>
-
 #include <cmath>
 #include <limits>
+#include <unsupported/Eigen/MatrixFunctions>
 
 #include "support/integration.hpp"
 #include "suture/physics/term_sum.hpp"
@@ -32,8 +31,9 @@ std::vector<MethodCase> accurate_methods() {
 
 TEST_CASE("rest lengths at fixed length relax exponentially towards the remembered mixture", "[convergence]") {
   const double tau = 0.7, memory = 0.3, end = 1.1;
-  TissueState state = regular_cell(8, 1.0, {.area_stiffness = 0.0, .membrane_stiffness = 0.0, .bending_stiffness = 0.0,
-                                            .tau = tau, .memory = memory});
+  TissueState state = regular_cell(
+      8, 1.0,
+      {.area_stiffness = 0.0, .membrane_stiffness = 0.0, .bending_stiffness = 0.0, .tau = tau, .memory = memory});
   const double length = state.view().rest_length[0];
   std::vector<double> reference(8);
   for (int k = 0; k < 8; ++k) {
@@ -55,7 +55,8 @@ TEST_CASE("rest lengths at fixed length relax exponentially towards the remember
 }
 
 TEST_CASE("eigenmodes of a regular polygon decay at the rates of the assembled Hessian", "[convergence]") {
-  const CellMaterial material{.area_stiffness = 5.0, .membrane_stiffness = 1.3, .bending_stiffness = 0.02, .tau = infinity};
+  const CellMaterial material{
+      .area_stiffness = 5.0, .membrane_stiffness = 1.3, .bending_stiffness = 0.02, .tau = infinity};
   for (const SpringLaw law : {SpringLaw::quadratic, SpringLaw::relative}) {
     const TissueState rest = regular_cell(10, 0.5, material);
     Config config;
@@ -76,7 +77,8 @@ TEST_CASE("eigenmodes of a regular polygon decay at the rates of the assembled H
         double projected = 0.0, rest_of_it = 0.0;
         for (int k = 0; k < 20; ++k) projected += (y[k] - rest.values[k]) * modes.eigenvectors()(k, mode);
         for (int k = 0; k < 20; ++k)
-          rest_of_it = std::max(rest_of_it, std::abs(y[k] - rest.values[k] - projected * modes.eigenvectors()(k, mode)));
+          rest_of_it =
+              std::max(rest_of_it, std::abs(y[k] - rest.values[k] - projected * modes.eigenvectors()(k, mode)));
         CAPTURE(mode, decay, static_cast<int>(method), projected / amplitude);
         CHECK(-std::log(projected / amplitude) / end == Approx(decay).epsilon(2e-4));
         CHECK(rest_of_it < 1e-3 * amplitude);
@@ -88,17 +90,21 @@ TEST_CASE("eigenmodes of a regular polygon decay at the rates of the assembled H
 TEST_CASE("a plastic cell near equilibrium follows the exponential of its linear system", "[convergence]") {
   const double tau = 0.4, memory = 0.25;
   const TissueState rest = regular_cell(
-      7, 0.5, {.area_stiffness = 5.0, .membrane_stiffness = 1.3, .bending_stiffness = 0.02, .tau = tau, .memory = memory});
+      7, 0.5,
+      {.area_stiffness = 5.0, .membrane_stiffness = 1.3, .bending_stiffness = 0.02, .tau = tau, .memory = memory});
   Config config;
   config.contact = contact_law(0.05);
   const int n = 7;
   const double side = rest.view().rest_length[0], spring = 1.3 / (side * side);
-  // d/dt (r, l0) = J (r, l0) with the quadratic law: tension k (l - l0), rest-length rate -(l0 - (1 - xi) l - xi l0_ref)/tau.
+  // d/dt (r, l0) = J (r, l0) with the quadratic law: tension k (l - l0), rest-length rate -(l0 - (1 - xi) l - xi
+  // l0_ref)/tau.
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * n, 3 * n);
-  jacobian.topLeftCorner(2 * n, 2 * n) = -Eigen::MatrixXd(assemble_hessian(make_cell_terms(rest.tissue, config), 0.0, rest.view()));
+  jacobian.topLeftCorner(2 * n, 2 * n) =
+      -Eigen::MatrixXd(assemble_hessian(make_cell_terms(rest.tissue, config), 0.0, rest.view()));
   for (int s = 0; s < n; ++s) {
     const int next = (s + 1) % n;
-    const double ux = (rest.values[next] - rest.values[s]) / side, uy = (rest.values[n + next] - rest.values[n + s]) / side;
+    const double ux = (rest.values[next] - rest.values[s]) / side,
+                 uy = (rest.values[n + next] - rest.values[n + s]) / side;
     for (const auto& [point, sign] : {std::pair{s, -1.0}, std::pair{next, 1.0}}) {
       jacobian(point, 2 * n + s) += spring * sign * ux;
       jacobian(n + point, 2 * n + s) += spring * sign * uy;
@@ -164,7 +170,8 @@ TEST_CASE("two apices on the attractive branch fall towards each other exponenti
 
 TEST_CASE("elastic cells and cells that flow at once are both integrated", "[convergence]") {
   // tau -> 0: rest lengths follow the lengths at once, so the membrane carries no tension: as if it were absent.
-  const CellMaterial material{.area_stiffness = 5.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = infinity};
+  const CellMaterial material{
+      .area_stiffness = 5.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = infinity};
   const TissueState elastic = wavy_cell(12, material);
   TissueOde without_flow(elastic.tissue, 0, ode_options(contact_law(0.05)), {});
   const auto y = integrate(without_flow, with_tolerance(Method::cvode, 1e-7), 0.0, elastic.values, 0.5);
@@ -177,7 +184,8 @@ TEST_CASE("elastic cells and cells that flow at once are both integrated", "[con
   TissueState relaxed = elastic;
   for (int k = 0; k < 12; ++k) {
     const int next = elastic.tissue.next(k);
-    relaxed.mutable_view().rest_length[k] = std::hypot(elastic.values[next] - elastic.values[k], elastic.values[12 + next] - elastic.values[12 + k]);
+    relaxed.mutable_view().rest_length[k] =
+        std::hypot(elastic.values[next] - elastic.values[k], elastic.values[12 + next] - elastic.values[12 + k]);
   }
   TissueOde fluid(elastic.tissue.with_materials({flowing}), 0, ode_options(contact_law(0.05)), {});
   TissueOde free(elastic.tissue.with_materials({slack}), 0, ode_options(contact_law(0.05)), {});

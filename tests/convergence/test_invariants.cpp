@@ -1,6 +1,5 @@
 // What the integrated motion must keep: it does not know where the origin is, and it only goes downhill.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "support/integration.hpp"

@@ -1,6 +1,5 @@
 // Observed orders of the methods on one smooth cell, and of what they report between steps.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "support/convergence_order.hpp"
@@ -14,7 +13,8 @@ namespace {
 constexpr double end = 0.25;
 
 struct SmoothProblem {
-  TissueState state = wavy_cell(10, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
+  TissueState state = wavy_cell(
+      10, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
   TissueOde ode{state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {}};
   std::vector<double> reference = integrate(ode, with_step(Method::rk4, 1.0 / 8192.0), 0.0, state.values, end);
 };
@@ -35,7 +35,8 @@ TEST_CASE("Euler, RKC2 and RK4 converge at orders 1, 2 and 4", "[convergence]") 
     Method method;
     double order, coarsest;
   };
-  for (const Row& row : {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 64}}) {
+  for (const Row& row :
+       {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 64}}) {
     std::vector<double> errors;
     for (const double h : {row.coarsest, row.coarsest / 2, row.coarsest / 4, row.coarsest / 8}) {
       Statistics statistics;
@@ -56,7 +57,8 @@ TEST_CASE("interpolation between steps keeps the accuracy of the method", "[conv
     Method method;
     double order, coarsest;
   };
-  for (const Row& row : {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 64}}) {
+  for (const Row& row :
+       {Row{Method::euler, 1.0, 1.0 / 256}, Row{Method::rkc2, 2.0, 1.0 / 64}, Row{Method::rk4, 4.0, 1.0 / 64}}) {
     std::vector<double> errors;
     for (const double h : {row.coarsest, row.coarsest / 2, row.coarsest / 4}) {
       const auto integrator = make_integrator(problem.ode, fixed(row.method, h), 0.0, problem.state.values);
@@ -76,7 +78,8 @@ TEST_CASE("interpolation between steps keeps the accuracy of the method", "[conv
 TEST_CASE("CVODE's interpolant is as accurate as its steps, and meets both ends of a step", "[convergence]") {
   SmoothProblem problem;
   const double tolerance = 1e-7;
-  const auto integrator = make_integrator(problem.ode, with_tolerance(Method::cvode, tolerance), 0.0, problem.state.values);
+  const auto integrator =
+      make_integrator(problem.ode, with_tolerance(Method::cvode, tolerance), 0.0, problem.state.values);
   std::vector<double> between(problem.state.values.size()), before(problem.state.values);
   int checked = 0;
   double worst = 0.0;

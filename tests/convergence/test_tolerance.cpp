@@ -1,6 +1,5 @@
 // The error that is asked for is the error that is made, and a limit is a limit.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 
@@ -12,7 +11,8 @@ using namespace suture::test;
 namespace {
 
 TissueState relaxing_cell() {
-  return wavy_cell(16, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
+  return wavy_cell(
+      16, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
 }
 
 }  // namespace

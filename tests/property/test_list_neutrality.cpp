@@ -11,7 +11,8 @@ TEST_CASE("a fresh and an aged contact list give the same forces", "[property]")
   const double skin = 0.2;
   int aged_checks = 0;
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    TissueState state = random_tissue(seed, {.rows = 3, .columns = 3, .minimum_vertices = 5, .maximum_vertices = 35, .spacing = 0.85});
+    TissueState state =
+        random_tissue(seed, {.rows = 3, .columns = 3, .minimum_vertices = 5, .maximum_vertices = 35, .spacing = 0.85});
     const TissueOdeOptions options = ode_options(contact_law(0.2), SpringLaw::quadratic, true, skin);
     TissueOde aged(state.tissue, 0, options, {});
     std::vector<double> from_aged(state.values.size()), from_fresh(state.values.size());

@@ -45,9 +45,9 @@ TissueState wavy_cell(int vertices, CellMaterial material, double amplitude) {
 TissueState facing_triangles(double gap) {
   const CellMaterial soft{.area_stiffness = 0.0, .membrane_stiffness = 0.0, .bending_stiffness = 0.0};
   TissueState state{.tissue = Tissue({3, 3}, {soft, soft}, std::vector<double>(6, 1.0))};
-  state.values = {0.0, -1.0, -1.0, gap,  gap + 1.0, gap + 1.0,  // x
-                  0.0, 0.5,  -0.5, 0.0,  -0.5,      0.5,        // y
-                  1.0, 1.0,  1.0,  1.0,  1.0,       1.0};
+  state.values = {0.0, -1.0, -1.0, gap, gap + 1.0, gap + 1.0,  // x
+                  0.0, 0.5,  -0.5, 0.0, -0.5,      0.5,        // y
+                  1.0, 1.0,  1.0,  1.0, 1.0,       1.0};
   return state;
 }
 

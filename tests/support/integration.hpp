@@ -24,8 +24,8 @@ TissueState facing_triangles(double gap);
 /// Contact parameters with every field set; `distance` is s.
 ContactParameters contact_law(double distance, double adhesion = 0.1, bool self_contact = true);
 
-TissueOdeOptions ode_options(const ContactParameters& contact, SpringLaw law = SpringLaw::quadratic, bool plastic = true,
-                             double skin = 0.13);
+TissueOdeOptions ode_options(const ContactParameters& contact, SpringLaw law = SpringLaw::quadratic,
+                             bool plastic = true, double skin = 0.13);
 
 /// Tolerances in model units of length, for positions and rest lengths alike.
 IntegratorOptions with_tolerance(Method method, double tolerance);

@@ -1,8 +1,9 @@
 // The packings of the published simulations: 50 cells that stay one confluent patch when the wall goes and whose wound
-// has the published size (model.md section 6). `test_validation "[packings]"` prints the table of docs/explanation/protocol.md.
-#include <catch2/catch.hpp>
+// has the published size (model.md section 6). `test_validation "[packings]"` prints the table of
+// docs/explanation/protocol.md.
 #include <fmt/format.h>
 
+#include <catch2/catch.hpp>
 #include <chrono>
 #include <cstring>
 
@@ -24,9 +25,7 @@ Row prepare(double area_stiffness, double tau, std::uint64_t seed) {
   config.tissue.seed = seed;
   config.packing.attempts = 1;
   const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
+  const auto seconds = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   Row row;
   row.preparation = prepare_tissue(config, {}, [&](Stage stage, const TissueState& state) {
     if (stage == Stage::packing) row.packing_seconds = seconds();
@@ -68,7 +67,9 @@ TEST_CASE("All 25 packings of both tissues are accepted at the first attempt", "
     const char* name;
     double area_stiffness, tau;
   };
-  fmt::print("| tissue | seed | packing fraction | packing s | all stages s | largest hole annealed | ablated | wound area |\n");
+  fmt::print(
+      "| tissue | seed | packing fraction | packing s | all stages s | largest hole annealed | ablated | wound area "
+      "|\n");
   fmt::print("|---|---|---|---|---|---|---|---|\n");
   for (const Tissue& tissue : {Tissue{"embryo", 16.0, 9.6}, Tissue{"wing disc", 32.0, 1228.8}})
     for (std::uint64_t seed = 1; seed <= 25; ++seed) {

@@ -8,8 +8,8 @@
 
 namespace suture {
 
-/// The `count` cells whose centres of area are nearest that of the whole tissue, nearest first; equal distances in order
-/// of cell number. Throws InputError when there are fewer cells.
+/// The `count` cells whose centres of area are nearest that of the whole tissue, nearest first; equal distances in
+/// order of cell number. Throws InputError when there are fewer cells.
 std::vector<int> central_cells(const TissueState& state, int count);
 
 /// The same state without the given cells. Throws InputError when none would be left, when a cell does not exist or is

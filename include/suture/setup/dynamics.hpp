@@ -25,8 +25,8 @@ struct EnergyReport {
   double largest_deviation = 0.0;  ///< from `initial`, over the samples
 };
 
-/// Constant-energy motion of unit masses by velocity Verlet (Swope, Andersen, Berens & Wilson 1982), second order in the
-/// step; `duration` is covered in equal steps of at most `time_step`. Updates positions, velocities and time.
+/// Constant-energy motion of unit masses by velocity Verlet (Swope, Andersen, Berens & Wilson 1982), second order in
+/// the step; `duration` is covered in equal steps of at most `time_step`. Updates positions, velocities and time.
 /// energies: the terms `ode` is the gradient of; their sum is sampled about ten times on the way.
 /// Throws NumericalError when the forces cannot be computed.
 EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,

@@ -1,5 +1,6 @@
 // The stages of a wound-closure run up to, not including, closure: packing, anneal, ablation (model.md section 6;
-// docs/explanation/protocol.md). Each stage takes a state and returns one, so a run can start from the saved end of any.
+// docs/explanation/protocol.md). Each stage takes a state and returns one, so a run can start from the saved end of
+// any.
 #pragma once
 
 #include <functional>
@@ -19,16 +20,16 @@ Config with_contact_distance(Config config);
 
 /// A tissue on its way to closure, and how it came there. Reports of stages that were not run are empty.
 struct Preparation {
-  Stage stage = Stage::packing;  ///< last one completed
-  TissueState state;             ///< at its end
-  int attempt = 0;               ///< of tissue.seed, counted from 0
+  Stage stage = Stage::packing;      ///< last one completed
+  TissueState state;                 ///< at its end
+  int attempt = 0;                   ///< of tissue.seed, counted from 0
   std::vector<std::string> refused;  ///< why each earlier attempt was refused
   double wall_radius = 0.0;
   PackingReport packing;
   EnergyReport anneal_energy;
-  Statistics relaxation;         ///< of both overdamped motions together
+  Statistics relaxation;  ///< of both overdamped motions together
   std::vector<int> removed_cells;
-  Acceptance acceptance;         ///< of `state`; stays empty after the packing stage
+  Acceptance acceptance;  ///< of `state`; stays empty after the packing stage
 };
 
 /// Called at the end of every stage of an attempt, before the tissue is judged.

@@ -61,7 +61,7 @@ const std::vector<BadConfig> bad_configs{
     {"unit where none belongs", "[contact]\nadhesion = \"0.1 um\"\n", {}, {"'contact.adhesion'", "a number"}},
     {"negative scale", "[units]\na0 = \"-25 um^2\"\n", {}, {"'units.rest_area'", "> 0"}},
     {"adhesion beyond its range", "[contact]\nadhesion = 0.4\n", {}, {"config.toml:2:1", "contact.range = 0.3"}},
-    {"packing backwards", "[packing]\ninitial_fraction = 0.95\n", {}, {"packing.final_fraction = 0.92"}},
+    {"packing backwards", "[packing]\ninitial_fraction = 0.99\n", {}, {"packing.final_fraction = 0.985"}},
     {"wound larger than the tissue", "[tissue]\ncells = 4\n", {}, {"'wound.cells'", "tissue.cells = 4"}},
     {"relative chain without floor", "[purse_string]\nlaw = \"relative\"\n", {}, {"minimum_rest_length", "> 0"}},
     {"more typed cells than cells", "[[cell_type]]\ncells = 60\n", {}, {"config.toml:2:1", "tissue.cells = 50"}},

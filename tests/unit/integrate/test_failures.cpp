@@ -1,6 +1,5 @@
 // How the integrators fail: in words, as the right exception, and never by crashing.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "support/integration.hpp"
@@ -107,9 +106,13 @@ TEST_CASE("an implicit step that cannot converge names the worst components, not
       return Evaluation::ok;
     }
     void linearise() override {}
-    void product(std::span<const double> v, std::span<double> out) override { std::copy(v.begin(), v.end(), out.begin()); }
+    void product(std::span<const double> v, std::span<double> out) override {
+      std::copy(v.begin(), v.end(), out.begin());
+    }
     void set_up_preconditioner() override {}
-    void precondition(std::span<const double> r, std::span<double> z) override { std::copy(r.begin(), r.end(), z.begin()); }
+    void precondition(std::span<const double> r, std::span<double> z) override {
+      std::copy(r.begin(), r.end(), z.begin());
+    }
     void recover_memory(std::span<const double>, std::span<double>) override {}
 
    private:

@@ -1,9 +1,8 @@
 // Our N_Vector against plain loops, through the interface CVODE uses.
-#include "integrate/fused_nvector.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
+
+#include "integrate/fused_nvector.hpp"
 
 using namespace suture;
 
@@ -86,7 +85,8 @@ TEST_CASE("fused operations equal plain loops, in place too", "[unit]") {
     for (std::size_t k = 0; k < n; ++k) CHECK(values(clone)[k] == Approx(-1.5 * x[k] + w[k]).margin(1e-14));
     N_VDestroy(clone);
     REQUIRE(N_VLinearCombination(3, c, terms, f.x) == 0);  // CVODE writes into the first term
-    for (std::size_t k = 0; k < n; ++k) CHECK(values(f.x)[k] == Approx(0.5 * x[k] - 1.5 * y[k] + 2.0 * w[k]).margin(1e-14));
+    for (std::size_t k = 0; k < n; ++k)
+      CHECK(values(f.x)[k] == Approx(0.5 * x[k] - 1.5 * y[k] + 2.0 * w[k]).margin(1e-14));
     N_Vector many[17];
     double ones[17];
     for (int j = 0; j < 17; ++j) many[j] = f.y, ones[j] = 1.0;

@@ -1,10 +1,8 @@
 // The nonlinear solver of one implicit step, on tissues whose contacts switch inside the step.
-#include "integrate/minimising_newton.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
+#include "integrate/minimising_newton.hpp"
 #include "support/integration.hpp"
 #include "support/random_tissue.hpp"
 #include "support/toy_flow.hpp"
@@ -38,7 +36,8 @@ struct Step {
     auto y = state.values;
     std::copy(at.begin(), at.end(), y.begin());
     double sum = 0.0;
-    for (const auto& [name, energy] : energy_by_term(make_cell_terms(state.tissue, config), 0.0, StateView(state.layout(), y)))
+    for (const auto& [name, energy] :
+         energy_by_term(make_cell_terms(state.tissue, config), 0.0, StateView(state.layout(), y)))
       sum += gamma * energy;
     for (std::size_t k = 0; k < at.size(); ++k) sum += 0.5 * (at[k] - state.values[k]) * (at[k] - state.values[k]);
     return sum;

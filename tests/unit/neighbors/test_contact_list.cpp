@@ -1,6 +1,5 @@
 // The windows of the contact list against a count of every vertex and segment.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <map>
 #include <set>
@@ -100,7 +99,8 @@ TEST_CASE("every segment within reach of a vertex is in exactly one window", "[u
   for (const Size size : {Size{3, 3}, Size{3, 9}, Size{7, 8}, Size{15, 33}, Size{62, 70}})
     for (const double spacing : {1.2, 0.8, 0.45})  // apart, touching, crossing
       for (const double reach : {0.02, 0.2, 0.9}) {
-        const TissueState state = random_tissue(11 * size.most + 3, {.minimum_vertices = size.least, .maximum_vertices = size.most, .spacing = spacing});
+        const TissueState state = random_tissue(
+            11 * size.most + 3, {.minimum_vertices = size.least, .maximum_vertices = size.most, .spacing = spacing});
         CAPTURE(size.least, size.most, spacing, reach);
         const Tally t = tally(state, reach, 0.7 * reach, 0.1);
         check(t);
@@ -120,7 +120,8 @@ TEST_CASE("a reach beyond the tissue lists everything once", "[unit]") {
   CHECK(t.near == t.listed);
   long expected = 0;
   for (int c = 0; c < state.tissue.cell_count(); ++c)
-    expected += static_cast<long>(state.tissue.vertex_count(c)) * (state.tissue.vertex_count() - state.tissue.vertex_count(c));
+    expected +=
+        static_cast<long>(state.tissue.vertex_count(c)) * (state.tissue.vertex_count() - state.tissue.vertex_count(c));
   CHECK(t.listed == expected);
 }
 
@@ -128,12 +129,14 @@ TEST_CASE("cells on top of one another, in a row or far apart are all found", "[
   TissueState stacked = random_tissue(6, {.rows = 1, .columns = 4, .minimum_vertices = 8, .maximum_vertices = 20});
   for (int c = 0; c < 4; ++c) {
     const double shift = stacked.view().x[stacked.tissue.first_vertex(c)];
-    for (int v = stacked.tissue.first_vertex(c); v < stacked.tissue.end_vertex(c); ++v) stacked.mutable_view().x[v] -= shift;
+    for (int v = stacked.tissue.first_vertex(c); v < stacked.tissue.end_vertex(c); ++v)
+      stacked.mutable_view().x[v] -= shift;
   }
   check_some(tally(stacked, 0.1, 0.1, 0.05));
   check_some(tally(random_tissue(7, {.rows = 1, .columns = 12}), 0.2, 0.1, 0.1));
   check_some(tally(random_tissue(8, {.rows = 12, .columns = 1}), 0.2, 0.1, 0.1));
   TissueState scattered = random_tissue(9, {.rows = 4, .columns = 4});
-  for (int v = scattered.tissue.first_vertex(15); v < scattered.tissue.end_vertex(15); ++v) scattered.mutable_view().x[v] += 1e6;
+  for (int v = scattered.tissue.first_vertex(15); v < scattered.tissue.end_vertex(15); ++v)
+    scattered.mutable_view().x[v] += 1e6;
   check_some(tally(scattered, 0.2, 0.1, 0.1));
 }

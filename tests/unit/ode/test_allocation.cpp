@@ -1,7 +1,6 @@
 // No memory is asked for in the loops that run millions of times.
-#include <catch2/catch.hpp>
-
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <cstdlib>
 #include <new>
 
@@ -32,7 +31,8 @@ using namespace suture;
 using namespace suture::test;
 
 TEST_CASE("rate, residual, product and preconditioner allocate nothing once warm", "[unit]") {
-  TissueState state = random_tissue(12, {.rows = 3, .columns = 3, .minimum_vertices = 10, .maximum_vertices = 30, .roughness = 0.1});
+  TissueState state =
+      random_tissue(12, {.rows = 3, .columns = 3, .minimum_vertices = 10, .maximum_vertices = 30, .roughness = 0.1});
   TissueOde ode(state.tissue, 0, ode_options(contact_law(0.2), SpringLaw::quadratic, true, 0.02), {});
   const int n = ode.position_count();
   std::vector<double> out(state.values.size()), a(n, 0.1), b(n);

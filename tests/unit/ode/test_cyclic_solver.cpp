@@ -1,12 +1,11 @@
 // The batched factorisation of cyclic block-pentadiagonal matrices against dense Cholesky.
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <random>
 
-#include "ode/aligned_buffer.hpp"
-#include "ode/kernels/kernels.hpp"
+#include "kernels/aligned_buffer.hpp"
+#include "kernels/kernels.hpp"
 
 using namespace suture;
 
@@ -85,7 +84,8 @@ TEST_CASE("cyclic block-pentadiagonal systems are solved exactly, one or eight a
         (lanes == 1 ? table->cyclic_solve1 : table->cyclic_solve8)(batch.matrix, rhs.data());
         double worst = 0.0;
         for (int lane = 0; lane < lanes; ++lane)
-          for (int k = 0; k < 2 * n; ++k) worst = std::max(worst, std::abs(rhs.data()[k * lanes + lane] - expected[lane][k]));
+          for (int k = 0; k < 2 * n; ++k)
+            worst = std::max(worst, std::abs(rhs.data()[k * lanes + lane] - expected[lane][k]));
         CAPTURE(table->name, n, lanes);
         CHECK(expected[0].norm() > 0.1);
         CHECK(worst < 1e-11);

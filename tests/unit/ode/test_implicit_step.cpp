@@ -2,7 +2,6 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <limits>
 
@@ -79,7 +78,8 @@ TEST_CASE("preconditioned conjugate gradients solve what a sparse factorisation 
       linearise(ode, state, gamma);
       ode.set_up_preconditioner();
       const int n = ode.position_count();
-      Eigen::SparseMatrix<double> matrix = gamma * assemble_hessian(make_cell_terms(state.tissue, config), 0.0, state.view());
+      Eigen::SparseMatrix<double> matrix =
+          gamma * assemble_hessian(make_cell_terms(state.tissue, config), 0.0, state.view());
       Eigen::SparseMatrix<double> identity(n, n);
       identity.setIdentity();
       matrix += identity;
@@ -130,7 +130,8 @@ TEST_CASE("eliminating rest lengths scales the membrane stiffness by (tau + gamm
     }
     Config config;
     config.contact = contact_law(contact_distance);
-    const Eigen::SparseMatrix<double> hessian = assemble_hessian(make_cell_terms(equivalent.tissue, config), 0.0, equivalent.view());
+    const Eigen::SparseMatrix<double> hessian =
+        assemble_hessian(make_cell_terms(equivalent.tissue, config), 0.0, equivalent.view());
     const Eigen::VectorXd v = wave(ode.position_count()), expected = v + gamma * (hessian * v);
     Eigen::VectorXd product(v.size());
     ode.product(span(v), span(product));
@@ -143,7 +144,12 @@ TEST_CASE("eliminating rest lengths scales the membrane stiffness by (tau + gamm
 TEST_CASE("the preconditioner of cells without neighbours is the exact inverse", "[unit]") {
   // Rows of cells far apart, of every size: nothing is left out, whatever shares a batch.
   for (const int least : {3, 4, 5, 6, 20}) {
-    TissueState state = stretched(7, {.rows = 2, .columns = 5, .minimum_vertices = least, .maximum_vertices = least + 4, .spacing = 2.0, .roughness = 0.05});
+    TissueState state = stretched(7, {.rows = 2,
+                                      .columns = 5,
+                                      .minimum_vertices = least,
+                                      .maximum_vertices = least + 4,
+                                      .spacing = 2.0,
+                                      .roughness = 0.05});
     TissueOde ode(state.tissue, 0, ode_options(contact_law(0.1, 0.1, false)), {});
     for (const double gamma : {0.001, 0.05}) {
       linearise(ode, state, gamma);
@@ -160,13 +166,15 @@ TEST_CASE("the preconditioner of cells without neighbours is the exact inverse",
 }
 
 TEST_CASE("the chain of the purse string is factored exactly, every time anew and for every ring size", "[unit]") {
-  TissueState state = stretched(2, {.rows = 1, .columns = 2, .minimum_vertices = 40, .maximum_vertices = 40, .spacing = 2.0, .roughness = 0.05});
+  TissueState state = stretched(
+      2, {.rows = 1, .columns = 2, .minimum_vertices = 40, .maximum_vertices = 40, .spacing = 2.0, .roughness = 0.05});
   for (const int size : {3, 4, 5, 6, 7, 12, 13}) {
     // A ring of its own, not tethered: points beyond the cells.
     PurseString string;
     string.minimum_rest_length = 1e-3;
     TissueState ringed = state;
-    std::vector<double> x(state.view().x.begin(), state.view().x.end()), y(state.view().y.begin(), state.view().y.end());
+    std::vector<double> x(state.view().x.begin(), state.view().x.end()),
+        y(state.view().y.begin(), state.view().y.end());
     for (int j = 0; j < size; ++j) {
       string.vertex.push_back(j);
       string.spring.push_back({0.2, 0.0, 0.3});

@@ -1,6 +1,5 @@
 // The three compilations of the kernels agree to rounding, and the vector operations with plain loops.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "neighbors/contact_list.hpp"
@@ -22,8 +21,13 @@ std::vector<const kernels::Table*> runnable_tables() {
 
 kernels::ContactScalars scalars(double s, double l1, double l2) {
   const double e = 0.5, outer = 2.0 * e * l1 / (l2 - l1);
-  return {.cutoff2 = s * s * (1 + l2) * (1 + l2), .inner2 = s * s * (1 + l1) * (1 + l1), .inner_a = -2 * e / s,
-          .inner_b = 2 * e / (s * s), .outer_a = outer * (1 + l2) / s, .outer_b = -outer / (s * s), .self2 = s * s};
+  return {.cutoff2 = s * s * (1 + l2) * (1 + l2),
+          .inner2 = s * s * (1 + l1) * (1 + l1),
+          .inner_a = -2 * e / s,
+          .inner_b = 2 * e / (s * s),
+          .outer_a = outer * (1 + l2) / s,
+          .outer_b = -outer / (s * s),
+          .self2 = s * s};
 }
 
 /// Everything one table computes from one tissue, as one long list of numbers.
@@ -38,7 +42,8 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   ContactList list(0.26, 0.2, 0.1);
   list.build(padded.shell, table);
   const kernels::ContactScalars contact = scalars(0.2, 0.1, 0.3);
-  table.contact_gradient(padded.shell, contact, list.windows().data(), list.windows().size(), list.self_pairs().data(), list.self_pairs().size());
+  table.contact_gradient(padded.shell, contact, list.windows().data(), list.windows().size(), list.self_pairs().data(),
+                         list.self_pairs().size());
   std::vector<double> result{static_cast<double>(list.windows().size())};
   std::vector<double> part(n);
   const auto keep = [&](double* padded_values) {
@@ -49,8 +54,9 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   keep(padded.shell.gy);
   table.shell_linearise(padded.shell, padded.hessian);
   std::vector<kernels::ContactFactor> factors(16 * list.windows().size() + list.self_pairs().size());
-  const std::size_t count = table.contact_linearise(padded.shell, contact, list.windows().data(), list.windows().size(),
-                                                    list.self_pairs().data(), list.self_pairs().size(), -100.0, factors.data());
+  const std::size_t count =
+      table.contact_linearise(padded.shell, contact, list.windows().data(), list.windows().size(),
+                              list.self_pairs().data(), list.self_pairs().size(), -100.0, factors.data());
   REQUIRE(count > 50);
   result.push_back(static_cast<double>(count));
   std::vector<double> direction(n);
@@ -59,7 +65,8 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   for (int k = 0; k < n; ++k) direction[k] = std::cos(2.1 * k);
   padded.unpack(direction, padded.hessian.vy);
   table.shell_product(padded.shell, padded.hessian);
-  table.contact_product(factors.data(), count, padded.hessian.vx, padded.hessian.vy, padded.hessian.ox, padded.hessian.oy);
+  table.contact_product(factors.data(), count, padded.hessian.vx, padded.hessian.vy, padded.hessian.ox,
+                        padded.hessian.oy);
   keep(padded.hessian.ox);
   keep(padded.hessian.oy);
   return result;

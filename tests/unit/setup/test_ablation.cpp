@@ -1,11 +1,9 @@
-#include "suture/setup/ablation.hpp"
-
+#include <algorithm>
 #include <catch2/catch.hpp>
 
-#include <algorithm>
-
-#include "suture/errors.hpp"
 #include "support/setup_tissues.hpp"
+#include "suture/errors.hpp"
+#include "suture/setup/ablation.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -16,7 +14,8 @@ namespace {
 TissueState row_of_cells(const std::vector<double>& centres) {
   const int cells = static_cast<int>(centres.size());
   TissueState state;
-  state.tissue = Tissue(std::vector<int>(cells, 3), std::vector<CellMaterial>(cells), std::vector<double>(3 * cells, 1.0));
+  state.tissue =
+      Tissue(std::vector<int>(cells, 3), std::vector<CellMaterial>(cells), std::vector<double>(3 * cells, 1.0));
   const double x[] = {0.5, -0.25, -0.25}, y[] = {0.0, 0.4, -0.4};
   state.values.resize(9 * cells);
   for (int v = 0; v < 3 * cells; ++v) {

@@ -1,10 +1,8 @@
-#include "suture/setup/acceptance.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "support/wound_tissues.hpp"
+#include "suture/setup/acceptance.hpp"
 
 using namespace suture;
 using namespace suture::test;

@@ -1,10 +1,8 @@
-#include "suture/setup/dynamics.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "support/setup_tissues.hpp"
+#include "suture/setup/dynamics.hpp"
 #include "suture/setup/packing.hpp"
 
 using namespace suture;

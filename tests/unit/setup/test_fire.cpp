@@ -1,10 +1,8 @@
-#include "suture/setup/fire.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "suture/errors.hpp"
+#include "suture/setup/fire.hpp"
 
 using namespace suture;
 

@@ -1,17 +1,15 @@
-#include "suture/setup/packing.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <cstring>
 #include <memory>
 
+#include "support/setup_tissues.hpp"
 #include "suture/errors.hpp"
 #include "suture/measure/cell_shape.hpp"
 #include "suture/measure/patch.hpp"
 #include "suture/physics/confinement.hpp"
 #include "suture/physics/term_sum.hpp"
-#include "support/setup_tissues.hpp"
+#include "suture/setup/packing.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -50,8 +48,7 @@ TEST_CASE("A packing has the fraction asked for and is in mechanical equilibrium
   const Config config = small_config();
   const Packing& packing = packed_small_tissue();
   const Membrane membrane = make_membrane(config.contact, packing.state.tissue);
-  const double fraction =
-      packing_fraction(packing.state.tissue, packing.state.view(), membrane, packing.wall_radius);
+  const double fraction = packing_fraction(packing.state.tissue, packing.state.view(), membrane, packing.wall_radius);
   CHECK(fraction == Approx(config.packing.final_fraction).margin(5e-3));
   CHECK(packing.report.fraction == fraction);
   CHECK(packing.report.compression_steps > 5);

@@ -1,9 +1,8 @@
-#include "suture/setup/placement.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <numbers>
+
+#include "suture/setup/placement.hpp"
 
 using namespace suture;
 

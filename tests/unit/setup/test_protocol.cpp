@@ -1,11 +1,9 @@
-#include "suture/setup/protocol.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <map>
 
-#include "suture/errors.hpp"
 #include "support/setup_tissues.hpp"
+#include "suture/errors.hpp"
+#include "suture/setup/protocol.hpp"
 
 using namespace suture;
 using namespace suture::test;

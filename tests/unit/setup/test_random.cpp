@@ -1,16 +1,14 @@
-#include "suture/setup/random.hpp"
-
 #include <catch2/catch.hpp>
-
 #include <cmath>
 #include <set>
+
+#include "suture/setup/random.hpp"
 
 using namespace suture;
 
 TEST_CASE("Philox gives the known answers of its authors", "[unit]") {
   // Random123, kat_vectors: philox4x32, 10 rounds.
-  CHECK(philox({0, 0, 0, 0}, {0, 0}) ==
-        std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
+  CHECK(philox({0, 0, 0, 0}, {0, 0}) == std::array<std::uint32_t, 4>{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
   CHECK(philox({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
         std::array<std::uint32_t, 4>{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
   CHECK(philox({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}) ==
@@ -65,7 +63,8 @@ TEST_CASE("Normal numbers have the moments and the tails of the normal distribut
   CHECK(sum / count == Approx(0.0).margin(five_sigma(1.0)));
   CHECK(squares / count == Approx(1.0).margin(five_sigma(2.0)));
   CHECK(fourth / count == Approx(3.0).margin(five_sigma(96.0)));
-  for (const auto& [observed, edge] : {std::pair(beyond_one, 1.0), std::pair(beyond_two, 2.0), std::pair(beyond_three, 3.0)}) {
+  for (const auto& [observed, edge] :
+       {std::pair(beyond_one, 1.0), std::pair(beyond_two, 2.0), std::pair(beyond_three, 3.0)}) {
     const double expected = std::erfc(edge / std::sqrt(2.0));
     CHECK(static_cast<double>(observed) / count == Approx(expected).margin(five_sigma(expected * (1.0 - expected))));
   }

@@ -1,4 +1,4 @@
-#include "ode/kernels/kernels.hpp"
+#include "kernels/kernels.hpp"
 
 namespace suture::kernels {
 

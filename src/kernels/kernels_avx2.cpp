@@ -1,14 +1,14 @@
-#include "ode/kernels/kernels.hpp"
-#include "ode/kernels/vector8.hpp"
+#include "kernels/kernels.hpp"
+#include "kernels/vector8.hpp"
 
 namespace {
 
 using namespace suture::kernels;
 
-#include "ode/kernels/contact.inl"
-#include "ode/kernels/cyclic.inl"
-#include "ode/kernels/shell.inl"
-#include "ode/kernels/vectors.inl"
+#include "kernels/contact.inl"
+#include "kernels/cyclic.inl"
+#include "kernels/shell.inl"
+#include "kernels/vectors.inl"
 
 }  // namespace
 
