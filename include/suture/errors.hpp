@@ -19,7 +19,7 @@ class NumericalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file could not be written or read. Exit code 4 is never used: I/O failures on output are exit code 3.
+/// A file could not be written. Exit code 3.
 class FileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

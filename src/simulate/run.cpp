@@ -30,8 +30,25 @@ struct Prepared {
   TissueState state;
 };
 
-/// Everything before the closure: run, or taken from an earlier run. Materials are those of this configuration, so that
-/// one packing serves many parameter points.
+/// A state read from a file, with the materials this configuration asks for, so that one packing serves many parameter
+/// points. The file does not say of which type a cell is, so typed cells must still all be there.
+TissueState with_configured_materials(const Config& config, TissueState state) {
+  const Tissue configured = make_tissue(config);
+  const int cells = state.tissue.cell_count();
+  const bool complete = cells == configured.cell_count();
+  if (!complete && !config.cell_types.empty())
+    throw InputError(fmt::format("{}: {} of the {} cells are left, so [[cell_type]] cannot be matched to them; start from the "
+                                 "packing or anneal stage",
+                                 config.run.start_from, cells, configured.cell_count()));
+  if (cells > configured.cell_count())
+    throw InputError(fmt::format("{}: holds {} cells, but tissue.cells is {}", config.run.start_from, cells, configured.cell_count()));
+  std::vector<CellMaterial> materials;
+  for (int c = 0; c < cells; ++c) materials.push_back(configured.material(complete ? c : 0));
+  state.tissue = state.tissue.with_materials(std::move(materials));
+  return state;
+}
+
+/// Everything before the closure: run, or taken from an earlier run.
 Prepared prepare(const RunRequest& request, const Config& config, RunSummary& summary) {
   const Stopwatch watch;
   Prepared prepared;
@@ -42,7 +59,7 @@ Prepared prepare(const RunRequest& request, const Config& config, RunSummary& su
   } else {
     auto [stage, state] = read_last_stage(config.run.start_from);
     if (stage == Stage::closure) throw InputError(fmt::format("{}: the run is complete; nothing is left to continue", config.run.start_from));
-    result = continue_preparation(config, stage, std::move(state), request.progress, keep);
+    result = continue_preparation(config, stage, with_configured_materials(config, std::move(state)), request.progress, keep);
   }
   prepared.last = result.stage;
   prepared.state = std::move(result.state);

@@ -1,0 +1,53 @@
+// `suture run` as a user meets it, on a small tissue.
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+using namespace suture::test;
+
+namespace {
+
+const std::string small = std::string(SUTURE_SOURCE_DIR) + "/examples/small.toml";
+
+nlohmann::json summary_of(const std::filesystem::path& folder) {
+  std::ifstream stream(folder / "summary.json");
+  return nlohmann::json::parse(stream);
+}
+
+Outcome run(const TemporaryDirectory& directory, const std::string& out, std::vector<std::string> overrides) {
+  std::vector<std::string> arguments{"run", small, "--quiet", "--out", out};
+  for (const std::string& text : overrides) arguments.insert(arguments.end(), {"--set", text});
+  return run_suture(SUTURE_PROGRAM, arguments, directory.path());
+}
+
+}  // namespace
+
+TEST_CASE("a run leaves everything the README promises, and it passes the check", "[cli]") {
+  const TemporaryDirectory directory;
+  REQUIRE(run(directory, "out", {}).exit_code == 0);
+  for (const char* name : {"run.h5", "summary.json", "wound.csv", "final.png", "final.svg", "strip.png"}) {
+    INFO(name);
+    CHECK(std::filesystem::file_size(directory.path() / "out" / name) > 100);
+  }
+  for (const char* name : {"out/run.h5", "out/summary.json", "out/wound.csv"})
+    CHECK(run_suture(SUTURE_PROGRAM, {"check", name}, directory.path()).exit_code == 0);
+  const nlohmann::json summary = summary_of(directory.path() / "out");
+  CHECK(summary["status"] == "closed");
+  CHECK(summary["t_50"].get<double>() < summary["t_closed"].get<double>());
+}
+
+TEST_CASE("a closure from a saved stage is the closure of the whole run, with the material asked for now", "[cli]") {
+  const TemporaryDirectory directory;
+  REQUIRE(run(directory, "whole", {"plasticity.tau=1"}).exit_code == 0);
+  REQUIRE(run(directory, "prepared", {"run.last_stage=ablation"}).exit_code == 0);  // tau 9.6: elastic until here
+  REQUIRE(run(directory, "continued", {"plasticity.tau=1", "run.start_from=prepared/run.h5"}).exit_code == 0);
+  const nlohmann::json whole = summary_of(directory.path() / "whole"), continued = summary_of(directory.path() / "continued");
+  CHECK(whole["t_closed"].get<double>() == continued["t_closed"].get<double>());
+  CHECK(whole["healed_shape"].get<double>() == continued["healed_shape"].get<double>());
+  REQUIRE(run(directory, "elastic", {"plasticity.tau=1e6", "run.start_from=prepared/run.h5"}).exit_code == 0);
+  CHECK(summary_of(directory.path() / "elastic")["healed_shape"] != continued["healed_shape"]);
+}
