@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "simulate/run_recorder.hpp"
 #include "suture/errors.hpp"
@@ -23,6 +25,16 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
+
+/// Thrown through the preparation by its progress callback, the only place it asks whether to go on.
+struct StopRequested {};
+
+Progress with_stop(const RunRequest& request) {
+  return [&request](std::string_view stage, double fraction, std::string_view text) {
+    report_progress(request.progress, stage, fraction, text);
+    if (request.stop && request.stop()) throw StopRequested{};
+  };
+}
 
 struct Prepared {
   std::map<Stage, TissueState> stages;  ///< ends of the stages that were run
@@ -48,19 +60,24 @@ TissueState with_configured_materials(const Config& config, TissueState state) {
   return state;
 }
 
+using SavedStage = std::optional<std::pair<Stage, TissueState>>;
+
+/// The stage run.start_from names, read before anything is written.
+SavedStage read_start(const Config& config) {
+  if (config.run.start_from.empty()) return std::nullopt;
+  auto [stage, state] = read_last_stage(config.run.start_from);
+  if (stage == Stage::closure)
+    throw InputError(fmt::format("{}: the run is complete; nothing is left to continue", config.run.start_from));
+  return std::pair{stage, with_configured_materials(config, std::move(state))};
+}
+
 /// Everything before the closure: run, or taken from an earlier run.
-Prepared prepare(const RunRequest& request, const Config& config, RunSummary& summary) {
+Prepared prepare(const RunRequest& request, const Config& config, SavedStage start, RunSummary& summary) {
   const Stopwatch watch;
   Prepared prepared;
   const auto keep = [&](Stage stage, const TissueState& state) { prepared.stages.insert_or_assign(stage, state); };
-  Preparation result;
-  if (config.run.start_from.empty()) {
-    result = prepare_tissue(config, request.progress, keep);
-  } else {
-    auto [stage, state] = read_last_stage(config.run.start_from);
-    if (stage == Stage::closure) throw InputError(fmt::format("{}: the run is complete; nothing is left to continue", config.run.start_from));
-    result = continue_preparation(config, stage, with_configured_materials(config, std::move(state)), request.progress, keep);
-  }
+  Preparation result = start ? continue_preparation(config, start->first, std::move(start->second), with_stop(request), keep)
+                             : prepare_tissue(config, with_stop(request), keep);
   prepared.last = result.stage;
   prepared.state = std::move(result.state);
   summary.wall_s["preparation"] = watch.seconds();
@@ -121,11 +138,12 @@ RunOutcome run_protocol(const RunRequest& original) {
   request.config = with_contact_distance(request.config);
   const Config& config = request.config;
   RunOutcome outcome{start_summary(config), {}};
+  SavedStage start = read_start(config);
   std::filesystem::create_directories(request.directory);
   TrajectoryWriter writer(request.directory / "run.h5", request.provenance);
   RunRecorder recorder(request, writer);
   try {
-    Prepared prepared = prepare(request, config, outcome.summary);
+    Prepared prepared = prepare(request, config, std::move(start), outcome.summary);
     for (const auto& [stage, state] : prepared.stages) writer.write_stage(stage, state);
     writer.commit();
     outcome.summary.status = RunStatus::reached_t_end;
@@ -136,6 +154,8 @@ RunOutcome run_protocol(const RunRequest& original) {
   } catch (const NumericalError& error) {
     outcome.summary.status = RunStatus::failed;
     outcome.failure = error.what();
+  } catch (const StopRequested&) {
+    outcome.summary.status = RunStatus::stopped;
   }
   recorder.summarise(outcome.summary);
   writer.write_summary(outcome.summary);
