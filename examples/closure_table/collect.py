@@ -38,7 +38,7 @@ def spread(values, digits):
 
 
 def print_table(rows):
-    print("| row | seeds | t_50 | t_25 | t_10 | t_05 | A(end)/A_max | healed shape | yields | CPU-shared wall s |")
+    print("| row | seeds | t_50 | t_25 | t_10 | t_05 | A(end)/A_max | healed shape | yields | wall s, busy machine |")
     print("|---|---|---|---|---|---|---|---|---|---|")
     for name in sorted({r["row"] for r in rows}):
         these = [r for r in rows if r["row"] == name]
