@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "integrate/cvode_history.hpp"
 #include "integrate/failure_report.hpp"
 #include "integrate/fused_nvector.hpp"
 #include "integrate/minimising_newton.hpp"
@@ -34,6 +35,7 @@ class CvodeIntegrator final : public Integrator {
   double last_step() const override { return last_step_; }
   int last_order() const override;
   void interpolate(double t, std::span<double> y) const override;
+  void resume(double t, std::span<const double> y, std::span<const int> source) override;
   Statistics statistics() const override;
 
  private:
@@ -41,6 +43,7 @@ class CvodeIntegrator final : public Integrator {
     if (flag < 0) throw NumericalError(fmt::format("CVODE: {} returned {}", call, flag));
   }
   void configure(double t);
+  void start_afresh();
   void make_nonlinear_solver();
   int solve_step(N_Vector correction, double tolerance);
   static int rate(double t, N_Vector y, N_Vector out, void* self);
@@ -51,11 +54,14 @@ class CvodeIntegrator final : public Integrator {
   IntegratorOptions options_;
   MinimisingNewton newton_;
   SUNContext context_ = nullptr;
+  std::shared_ptr<VectorFamily> family_ = std::make_shared<VectorFamily>();
   N_Vector y_ = nullptr, psi_ = nullptr, interpolated_ = nullptr;
   SUNNonlinearSolver solver_ = nullptr;
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
+  double offset_ = 0.0;  // time - CVODE's time: CVODE cannot step back to an event inside its last step
   std::int64_t rates_ = 0;
+  std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
   std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
   std::exception_ptr exception_;  // thrown inside a callback; exceptions must not cross C frames
 };
@@ -68,9 +74,9 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
       time_(t),
       unconverged_(y.size()) {
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
-  y_ = make_fused_vector(y.size(), context_);
-  psi_ = make_fused_vector(y.size(), context_);
-  interpolated_ = make_fused_vector(y.size(), context_);
+  y_ = make_fused_vector(y.size(), context_, family_);
+  psi_ = make_fused_vector(y.size(), context_, family_);
+  interpolated_ = make_fused_vector(y.size(), context_, family_);
   std::copy(y.begin(), y.end(), values(y_).begin());
   cvode_ = CVodeCreate(CV_BDF, context_);
   if (cvode_ == nullptr) throw NumericalError("CVODE: cannot be created");
@@ -139,6 +145,7 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   void* user;
   if (CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &yn, &fn, &gamma, &rl1, &zn1, &user) != CV_SUCCESS)
     return SUN_NLS_MEM_NULL;
+  t += offset_;
   N_VLinearSum(1.0, predicted, -rl1, zn1, psi_);
   system_->begin_implicit_step(t, gamma, values(psi_));
   const std::span<double> out = values(correction), start = values(predicted);
@@ -161,7 +168,7 @@ int CvodeIntegrator::rate(double t, N_Vector y, N_Vector out, void* user) {
   auto* self = static_cast<CvodeIntegrator*>(user);
   try {
     ++self->rates_;
-    return self->system_->rate(t, values(y), values(out)) == Evaluation::ok ? 0 : 1;
+    return self->system_->rate(t + self->offset_, values(y), values(out)) == Evaluation::ok ? 0 : 1;
   } catch (...) {
     self->exception_ = std::current_exception();
     return -1;
@@ -182,10 +189,12 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
 
 double CvodeIntegrator::step(double limit) {
   const double before = time_;
+  if (limit <= before) return time_;
   check(CVodeSetMinStep(cvode_, time_resolution * std::abs(before)), "CVodeSetMinStep");
   // CVODE takes the scale of its first step from the time it is asked for, which must be finite.
-  check(CVodeSetStopTime(cvode_, std::min(limit, latest_time)), "CVodeSetStopTime");
-  const int flag = CVode(cvode_, std::isfinite(limit) ? limit : before + 1.0, y_, &time_, CV_ONE_STEP);
+  check(CVodeSetStopTime(cvode_, std::min(limit - offset_, latest_time)), "CVodeSetStopTime");
+  const int flag = CVode(cvode_, (std::isfinite(limit) ? limit : before + 1.0) - offset_, y_, &time_, CV_ONE_STEP);
+  time_ = flag == CV_TSTOP_RETURN ? limit : time_ + offset_;
   if (exception_) std::rethrow_exception(std::exchange(exception_, nullptr));
   if (flag == CV_CONV_FAILURE || flag == CV_NLS_FAIL) fail("the implicit step did not converge", flag);
   if (flag == CV_ERR_FAILURE) fail("the error test failed repeatedly", flag);
@@ -210,8 +219,36 @@ int CvodeIntegrator::last_order() const {
 }
 
 void CvodeIntegrator::interpolate(double t, std::span<double> y) const {
-  check(CVodeGetDky(cvode_, t, 0, interpolated_), "CVodeGetDky");
+  check(CVodeGetDky(cvode_, t - offset_, 0, interpolated_), "CVodeGetDky");
   std::copy_n(values(interpolated_).begin(), y.size(), y.begin());
+}
+
+/// The steps behind the event stay CVODE's past: the solution and, for most components, its rate are continuous there.
+/// What is not, the error test sees at the next step, as it sees any other rough spot.
+void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<const int> source) {
+  CvodeHistory history(cvode_, *family_);
+  const bool keep = options_.keep_history && last_step_ > 0.0 && history.verified(interpolated_);
+  if (keep) history.shift(t - time_);
+  if (!source.empty()) {
+    family_->rearrange(source);
+    unconverged_.assign(y.size(), 0.0);
+  }
+  newton_.system_changed();
+  offset_ += t - time_;
+  time_ = t;
+  std::copy(y.begin(), y.end(), values(y_).begin());
+  if (keep)
+    history.set_value(y_);
+  else
+    start_afresh();
+}
+
+void CvodeIntegrator::start_afresh() {
+  const Statistics so_far = statistics();
+  forgotten_steps_ = so_far.steps;
+  forgotten_failures_ = so_far.error_test_failures - newton_.counts().early_exits;
+  check(CVodeReInit(cvode_, time_ - offset_, y_), "CVodeReInit");
+  check(CVodeSetInitStep(cvode_, last_step_ > 0.0 ? 0.1 * last_step_ : options_.initial_step), "CVodeSetInitStep");
 }
 
 Statistics CvodeIntegrator::statistics() const {
@@ -221,13 +258,13 @@ Statistics CvodeIntegrator::statistics() const {
   double h0, hlast, hcur, tcur;
   CVodeGetIntegratorStats(cvode_, &steps, &rates, &setups, &error_fails, &last, &current, &h0, &hlast, &hcur, &tcur);
   const MinimisingNewton::Counts& n = newton_.counts();
-  s.steps = steps;
+  s.steps = forgotten_steps_ + steps;
   s.rate_evaluations = rates_ + n.residuals;
   s.newton_iterations = n.iterations;
   s.linear_iterations = n.linear_iterations;
   s.hessian_builds = n.hessians;
   s.preconditioner_setups = n.setups;
-  s.error_test_failures = error_fails + n.early_exits;  // an early exit stands in for a failed error test
+  s.error_test_failures = forgotten_failures_ + error_fails + n.early_exits;  // an early exit stands in for a failed error test
   s.convergence_failures = n.failures;
   return s;
 }

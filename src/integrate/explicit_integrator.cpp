@@ -31,6 +31,18 @@ void ExplicitIntegrator::accept(double h) {
   ++counts_.steps;
 }
 
+/// One-step methods have no past to keep: only the state and its rate.
+void ExplicitIntegrator::resume(double t, std::span<const double> y, std::span<const int>) {
+  if (y.size() != y_.size()) {
+    for (auto* v : {&f_, &y_before_, &f_before_, &y_next_, &f_next_}) v->resize(y.size());
+    resize(y.size());
+  }
+  time_ = t;
+  last_step_ = 0.0;
+  y_.assign(y.begin(), y.end());
+  evaluate_or_fail(t, y_, f_);
+}
+
 void ExplicitIntegrator::interpolate(double t, std::span<double> y) const {
   const double h = last_step_, s = h > 0.0 ? (t - (time_ - h)) / h : 1.0;
   const double a = (1.0 + 2.0 * s) * (1.0 - s) * (1.0 - s), b = s * s * (3.0 - 2.0 * s);

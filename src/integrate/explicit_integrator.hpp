@@ -20,6 +20,7 @@ class ExplicitIntegrator : public Integrator {
   /// Cubic Hermite between the ends of the last step.
   void interpolate(double t, std::span<double> y) const override;
   Statistics statistics() const override { return counts_; }
+  void resume(double t, std::span<const double> y, std::span<const int> source) override;
 
  protected:
   /// Throws NumericalError when the rate is refused; explicit fixed-step methods cannot retry.
@@ -27,6 +28,8 @@ class ExplicitIntegrator : public Integrator {
   Evaluation evaluate(double t, std::span<const double> y, std::span<double> out);
   /// Accepts y_next_ (and its rate f_next_) as the state at time() + h.
   void accept(double h);
+  /// For methods with vectors of their own: the system has this many components from now on.
+  virtual void resize(std::size_t) {}
   [[noreturn]] void fail(const std::string& what, double h, std::span<const double> errors) const;
 
   OdeSystem* system_;

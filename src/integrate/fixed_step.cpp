@@ -55,6 +55,10 @@ class RungeKutta4 final : public FixedStep {
       for (std::size_t k = 0; k < y_.size(); ++k) y_next_[k] += weight[j + 1] * h * stage_rate_[k];
     }
   }
+  void resize(std::size_t n) override {
+    stage_.resize(n);
+    stage_rate_.resize(n);
+  }
   std::vector<double> stage_, stage_rate_;
 };
 

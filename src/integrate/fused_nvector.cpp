@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "kernels/aligned_buffer.hpp"
 #include "kernels/kernels.hpp"
@@ -12,13 +13,20 @@ namespace suture {
 namespace {
 
 struct Content {
-  explicit Content(std::size_t n) : size(n), padded((n + 7) / 8 * 8), buffer(padded), data(buffer.data()) {}
-  std::size_t size, padded;
+  Content(std::size_t n, std::shared_ptr<VectorFamily> in) : family(std::move(in)) { allocate(n); }
+  void allocate(std::size_t n) {
+    size = n;
+    padded = (n + 7) / 8 * 8;
+    buffer = AlignedBuffer(padded);
+    data = buffer.data();
+  }
+  std::size_t size = 0, padded = 0;
   AlignedBuffer buffer;
-  double* data;
+  double* data = nullptr;
+  std::shared_ptr<VectorFamily> family;
 };
 
-const Content& content(N_Vector v) { return *static_cast<const Content*>(v->content); }
+Content& content(N_Vector v) { return *static_cast<Content*>(v->content); }
 double* data(N_Vector v) { return content(v).data; }
 std::size_t padded(N_Vector v) { return content(v).padded; }
 const kernels::Table& kernel() { return kernels::best(); }
@@ -29,9 +37,10 @@ void each(N_Vector z, F f) {
   for (std::size_t k = 0; k < content(z).size; ++k) out[k] = f(k);
 }
 
-N_Vector clone(N_Vector v) { return make_fused_vector(content(v).size, v->sunctx); }
+N_Vector clone(N_Vector v) { return make_fused_vector(content(v).size, v->sunctx, content(v).family); }
 
 void destroy(N_Vector v) {
+  std::erase(content(v).family->members, v);
   delete static_cast<Content*>(v->content);
   v->content = nullptr;
   N_VFreeEmpty(v);
@@ -82,10 +91,11 @@ void fill_fused_operations(N_Vector_Ops ops) {
 
 }  // namespace
 
-N_Vector make_fused_vector(std::size_t n, SUNContext context) {
+N_Vector make_fused_vector(std::size_t n, SUNContext context, std::shared_ptr<VectorFamily> family) {
   N_Vector v = N_VNewEmpty(context);
   if (v == nullptr) throw std::bad_alloc();
-  v->content = new Content(n);
+  family->members.push_back(v);
+  v->content = new Content(n, std::move(family));
   v->ops->nvgetvectorid = [](N_Vector) { return SUNDIALS_NVEC_CUSTOM; };
   v->ops->nvclone = clone;
   v->ops->nvdestroy = destroy;
@@ -97,5 +107,14 @@ N_Vector make_fused_vector(std::size_t n, SUNContext context) {
 }
 
 std::span<double> values(N_Vector v) { return {data(v), content(v).size}; }
+
+void VectorFamily::rearrange(std::span<const int> source) {
+  for (N_Vector v : members) {
+    Content& c = content(v);
+    AlignedBuffer before = std::move(c.buffer);
+    c.allocate(source.size());
+    for (std::size_t k = 0; k < source.size(); ++k) c.data[k] = before.data()[source[k]];
+  }
+}
 
 }  // namespace suture

@@ -4,12 +4,22 @@
 
 #include <sundials/sundials_nvector.h>
 
+#include <memory>
 #include <span>
+#include <vector>
 
 namespace suture {
 
+/// A vector and all its clones, in the order in which they were made. An event that changes the size of the system
+/// rearranges all of them at once.
+struct VectorFamily {
+  std::vector<N_Vector> members;
+  /// Every member becomes new[k] = old[source[k]].
+  void rearrange(std::span<const int> source);
+};
+
 /// A new vector of n zeros; freed by N_VDestroy.
-N_Vector make_fused_vector(std::size_t n, SUNContext context);
+N_Vector make_fused_vector(std::size_t n, SUNContext context, std::shared_ptr<VectorFamily> family);
 
 /// The values of a fused vector (or of any clone of one).
 std::span<double> values(N_Vector v);

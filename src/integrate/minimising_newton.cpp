@@ -6,13 +6,20 @@
 namespace suture {
 
 MinimisingNewton::MinimisingNewton(GradientFlowSystem& system, const NewtonOptions& options)
-    : system_(&system),
-      kernel_(&kernels::best()),
-      options_(options),
-      n_(system.position_count()),
-      padded_((n_ + 7) / 8 * 8),
-      buffer_(9 * padded_) {
-  for (double** v : {&q_, &start_, &f_, &trial_, &z_, &d_, &r_, &p_, &ap_}) *v = vector();
+    : system_(&system), kernel_(&kernels::best()), options_(options) {
+  allocate();
+}
+
+void MinimisingNewton::allocate() {
+  n_ = system_->position_count();
+  padded_ = (n_ + 7) / 8 * 8;
+  buffer_ = AlignedBuffer(9 * padded_);
+  for (double** v : {&q_, &start_, &f_, &trial_, &z_, &d_, &r_, &p_, &ap_}) *v = buffer_.take(n_);
+}
+
+void MinimisingNewton::system_changed() {
+  if (n_ != static_cast<std::size_t>(system_->position_count())) allocate();
+  preconditioner_gamma_ = 0.0;
 }
 
 Evaluation MinimisingNewton::residual(std::span<const double> q, double* f) {

@@ -35,6 +35,9 @@ class MinimisingNewton {
   /// system.begin_implicit_step has been called. q: prediction in, solution out (positions only).
   NewtonResult solve(double gamma, std::span<double> q, const NewtonTarget& target);
 
+  /// The system has another size or other terms since the last solve.
+  void system_changed();
+
   struct Counts {
     std::int64_t residuals = 0, iterations = 0, linear_iterations = 0, hessians = 0, setups = 0, early_exits = 0, failures = 0;
   };
@@ -44,7 +47,7 @@ class MinimisingNewton {
   std::span<const double> obstacle() const { return {z_, n_}; }
 
  private:
-  double* vector() { return buffer_.take(n_); }
+  void allocate();
   std::span<double> span(double* p) const { return {p, n_}; }
   Evaluation residual(std::span<const double> q, double* f);
   double norm(double squared) const;
@@ -58,7 +61,7 @@ class MinimisingNewton {
   GradientFlowSystem* system_;
   const kernels::Table* kernel_;
   NewtonOptions options_;
-  std::size_t n_, padded_;
+  std::size_t n_ = 0, padded_ = 0;
   AlignedBuffer buffer_;
   double *q_, *start_, *f_, *trial_, *z_, *d_, *r_, *p_, *ap_;
   double preconditioner_gamma_ = 0.0;

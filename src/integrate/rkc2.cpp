@@ -20,6 +20,10 @@ class Rkc2 final : public ExplicitIntegrator {
   double step(double limit) override;
 
  private:
+  void resize(std::size_t n) override {
+    for (auto* v : {&direction_, &stage_a_, &stage_b_, &stage_f_, &errors_}) v->resize(n);
+    radius_ = 0.0;
+  }
   void estimate_spectral_radius();
   double first_step();
   /// Fills y_next_; false when a stage was refused.

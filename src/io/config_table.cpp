@@ -76,6 +76,8 @@ std::vector<ConfigKey<Config>> program_keys() {
                                                      above_zero_to(1), "error tolerance on rest lengths"),
       key<&C::integrator, &I::maximum_order>("integrator", "maximum_order", pure_number, between(1, 5),
                                              "highest order of the BDF formulas"),
+      key<&C::integrator, &I::keep_history>("integrator", "keep_history", pure_number, anything,
+                                            "an event keeps the steps behind it; false: every event starts CVODE afresh"),
       key<&C::integrator, &I::maximum_step>("integrator", "maximum_step", time, positive_or_infinite,
                                             "longest step of the adaptive methods"),
       key<&C::integrator, &I::time_step>("integrator", "time_step", time, positive, "step of the fixed-step methods",

@@ -22,13 +22,16 @@ class Closure {
   ClosureResult run();
 
  private:
-  void start_integrator(double initial_step);
+  std::vector<std::shared_ptr<const EnergyTerm>> string_terms() const;
+  void start_integrator();
+  void resume(TissueState at_event);
   void step();
   void take_samples(double until);
   void sample(double t);
   void publish_events();
   void guard_progress(double event_time);
   TissueState state_at(double t) const;
+  Statistics statistics() const;
   double since_start(double t) const { return t - start_; }
 
   const Config& config_;
@@ -42,7 +45,7 @@ class Closure {
   std::unique_ptr<Integrator> integrator_;
   std::vector<EventRecord> log_;
   std::size_t published_ = 0;
-  Statistics finished_;  // of integrators before the present one
+  std::int64_t restarts_ = 0;
   long samples_ = 0;
   double instant_ = -1e300;
   int at_instant_ = 0;
@@ -72,30 +75,52 @@ Closure::Closure(const Config& config, TissueState state, ClosureObserver& obser
   state_ = with_string(config, std::move(state), *event_wound_.wound(), membrane_.contact_distance);
 }
 
-void Closure::start_integrator(double initial_step) {
-  if (integrator_) {
-    finished_ += integrator_->statistics();
-    ++finished_.restarts;
-  }
-  integrator_.reset();
-  std::vector<std::shared_ptr<const EnergyTerm>> extra;
-  if (!state_.purse_string.empty()) {
-    extra.push_back(std::make_shared<PurseStringChain>(state_.tissue, state_.purse_string, config_.purse_string));
-    extra.push_back(std::make_shared<PurseStringTethers>(state_.tissue, state_.purse_string, config_.purse_string, membrane_.contact_distance));
-  }
+std::vector<std::shared_ptr<const EnergyTerm>> Closure::string_terms() const {
+  if (state_.purse_string.empty()) return {};
+  return {std::make_shared<PurseStringChain>(state_.tissue, state_.purse_string, config_.purse_string),
+          std::make_shared<PurseStringTethers>(state_.tissue, state_.purse_string, config_.purse_string, membrane_.contact_distance)};
+}
+
+void Closure::start_integrator() {
   TissueOdeOptions options;
   options.membrane_law = config_.membrane.law;
   options.contact = config_.contact;
   options.contact.distance = membrane_.contact_distance;
   options.skin = config_.integrator.skin * state_.tissue.mean_initial_rest_length();
   options.threads = config_.integrator.threads;
-  if (ode_)
-    ode_->replace_extra(state_.purse_string.size(), std::move(extra));
-  else
-    ode_ = std::make_unique<TissueOde>(state_.tissue, state_.purse_string.size(), options, std::move(extra), state_.reference_rest_length);
-  IntegratorOptions method = integrator_options(config_, state_.tissue.mean_initial_rest_length());
-  method.initial_step = initial_step;
-  integrator_ = make_integrator(*ode_, method, state_.time, state_.values);
+  ode_ = std::make_unique<TissueOde>(state_.tissue, state_.purse_string.size(), options, string_terms(), state_.reference_rest_length);
+  integrator_ = make_integrator(*ode_, integrator_options(config_, state_.tissue.mean_initial_rest_length()), state_.time, state_.values);
+}
+
+/// For every component after an event the one before it whose past it carries on: a purse-string vertex that stays its
+/// own, a captured one that of the cell vertex it sits on.
+std::vector<int> component_sources(const TissueState& before, const TissueState& after) {
+  const StateLayout old_layout = before.layout(), layout = after.layout();
+  std::vector<int> point(layout.points()), source(layout.size()), old_index(layout.vertices, -1);
+  for (int j = 0; j < old_layout.ring; ++j) old_index[before.purse_string.vertex[j]] = old_layout.ring_point(j);
+  for (int v = 0; v < layout.vertices; ++v) point[v] = v;
+  for (int j = 0; j < layout.ring; ++j) {
+    const int v = after.purse_string.vertex[j];
+    point[layout.ring_point(j)] = old_index[v] >= 0 ? old_index[v] : v;
+  }
+  for (int p = 0; p < layout.points(); ++p) source[layout.x(p)] = old_layout.x(point[p]), source[layout.y(p)] = old_layout.y(point[p]);
+  for (int v = 0; v < layout.vertices; ++v) source[layout.rest_length(v)] = old_layout.rest_length(v);
+  return source;
+}
+
+void Closure::resume(TissueState at_event) {
+  std::vector<int> source;
+  if (at_event.purse_string.vertex != state_.purse_string.vertex) source = component_sources(state_, at_event);
+  state_ = std::move(at_event);
+  ode_->replace_extra(state_.purse_string.size(), string_terms());
+  integrator_->resume(state_.time, state_.values, source);
+  ++restarts_;
+}
+
+Statistics Closure::statistics() const {
+  Statistics total = integrator_->statistics();
+  total.restarts = restarts_;
+  return total;
 }
 
 TissueState Closure::state_at(double t) const {
@@ -108,14 +133,12 @@ TissueState Closure::state_at(double t) const {
 void Closure::sample(double t) {
   const TissueState state = t == state_.time ? state_ : state_at(t);
   const std::optional<Wound>& wound = sampled_wound_.update(state.tissue, state.view());
-  Statistics total = finished_;
-  if (integrator_) total += integrator_->statistics();
   observer_.sample({.state = state,
                     .wound = wound,
                     .time = since_start(t),
-                    .last_step = integrator_ ? integrator_->last_step() : 0.0,
-                    .last_order = integrator_ ? integrator_->last_order() : 0,
-                    .statistics = total});
+                    .last_step = integrator_->last_step(),
+                    .last_order = integrator_->last_order(),
+                    .statistics = statistics()});
   const double area = wound ? wound->area : 0.0, limit = config_.run.closed_area;
   if (sampled_wound_.status() == WoundStatus::open_to_outside) {
     result_.status = ClosureStatus::opened;
@@ -164,9 +187,7 @@ void Closure::step() {
     guard_progress(due->time);
     take_samples(due->time);
     publish_events();
-    const double restart_step = 0.1 * integrator_->last_step();
-    state_ = std::move(at_event);
-    if (!done_) start_integrator(restart_step);
+    resume(std::move(at_event));
     return;
   }
   take_samples(until);
@@ -177,12 +198,11 @@ void Closure::step() {
 }
 
 ClosureResult Closure::run() {
-  start_integrator(0.0);
+  start_integrator();
   sample(start_);
   while (!done_ && integrator_->time() < end_) step();
   publish_events();
-  finished_ += integrator_->statistics();
-  result_.statistics = finished_;
+  result_.statistics = statistics();
   result_.storms = events_.storms();
   if (!done_) result_.state = state_;
   return std::move(result_);

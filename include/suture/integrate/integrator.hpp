@@ -36,6 +36,7 @@ struct IntegratorOptions {
   double maximum_step = 0.0;           ///< 0: none
   double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
   int maximum_order = 5;
+  bool keep_history = true;            ///< a multistep method carries its past over an event
 };
 
 /// Advances one OdeSystem of fixed size. Throws NumericalError on failure; everything up to time() stays valid.
@@ -51,6 +52,10 @@ class Integrator {
   /// y at t in [time() - last_step(), time()], to the order of the method.
   virtual void interpolate(double t, std::span<double> y) const = 0;
   virtual Statistics statistics() const = 0;
+  /// Goes on from (t, y) after an event inside the last step (time() - last_step() <= t <= time()) that changed the
+  /// system's rate, its size or the state: component k of y carries on the past of the former component source[k]
+  /// (empty source: of component k). The step size is kept as far as the method can.
+  virtual void resume(double t, std::span<const double> y, std::span<const int> source) = 0;
 };
 
 /// What [integrator] asks for, in model units; `rest_length` is the mean l0(0) its tolerances refer to.

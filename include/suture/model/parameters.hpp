@@ -180,6 +180,7 @@ struct IntegratorParameters {
   double tolerance = 1e-3;           ///< on positions, in units of l0(0)
   double rest_length_tolerance = 1e-3; ///< on rest lengths, in units of l0(0)
   int maximum_order = 5;
+  bool keep_history = true;          ///< carry the multistep history over events
   double maximum_step = std::numeric_limits<double>::infinity();
   std::optional<double> time_step;   ///< fixed-step methods; unset: 0.01 l0/sqrt(k_a)
   double skin = 1.0;                 ///< Verlet-list skin, in units of l0(0)

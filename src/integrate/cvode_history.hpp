@@ -1,0 +1,34 @@
+// CVODE's memory of the steps behind it, which an event may keep. CVODE 6.4 can only start afresh (order 1, tiny steps;
+// CVodeResizeHistory came with 7.3), which costs about ten steps per event, and a closure has thousands of events.
+#pragma once
+
+#include <sundials/sundials_nvector.h>
+
+#include <vector>
+
+#include "integrate/fused_nvector.hpp"
+
+namespace suture {
+
+/// The Nordsieck array zn[j] = h^j y^(j)/j! of a CVODE instance whose vectors are of one family. The array is found
+/// among the family's members behind the two vectors that CVODE's interface names, and every use is checked against
+/// CVodeGetDky, so that a CVODE that keeps its history elsewhere is noticed and never damaged.
+class CvodeHistory {
+ public:
+  CvodeHistory(void* cvode, const VectorFamily& family);
+
+  /// Whether zn[0..order] has been found: compares them with CVODE's own derivatives at its present time.
+  bool verified(N_Vector scratch);
+  /// Moves the point of expansion by `shift` (model units of time, within the last step).
+  void shift(double shift);
+  /// zn[0] = y; the derivatives stay.
+  void set_value(N_Vector y) { N_VScale(1.0, y, zn_[0]); }
+
+ private:
+  void* cvode_;
+  std::vector<N_Vector> zn_;  ///< 0 .. last order
+  double h_ = 0.0;            ///< the step the array is scaled with
+  const VectorFamily* family_;
+};
+
+}  // namespace suture
