@@ -2,76 +2,70 @@
 //     [0 < t_k < 1] u(segment k)  -  [t_k > 0] u(point k)  +  [t_k >= 1] u(point k + 1),
 // which is zero when the segment is out of reach, so a window may hold any superset of the segments that matter.
 
-/// u'(d)/d and u''(d) of the law at squared distance d2 < cutoff2.
-inline Double8 force_over_distance(const ContactScalars& c, Double8 d2) {
-  const Mask8 inner = d2 < c.inner2;
-  const Double8 inverse = 1.0 / square_root(d2);
-  return select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) * inverse +
+// A window holds at most three segments and their last end point, four lanes: two windows fill a vector.
+
+/// u'(d)/d at squared distance d2 < cutoff2.
+SUTURE_INLINE Double8 force_over_distance(const ContactScalars& c, Double8 d2) {
+  const Mask8 inner = less(d2, c.inner2);
+  return select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) * inverse_square_root(d2) +
          select(inner, broadcast(c.inner_b), broadcast(c.outer_b));
 }
 
 struct WindowState {
-  Double8 dx, dy, ex, ey, t, segment_d2, point_d2, sign;
+  Double8 dx, dy, ex, ey, t, inverse_length2, segment_d2, point_d2, sign;
   Mask8 segment, point;  ///< live lanes
 };
 
-inline WindowState classify(const Shell& s, const ContactScalars& c, const Window& w, double px, double py) {
+SUTURE_INLINE WindowState classify(const Shell& s, const ContactScalars& c, const Window& a, const Window& b) {
   WindowState v;
-  const Mask8 lane = Mask8{0, 1, 2, 3, 4, 5, 6, 7};
-  const Mask8 listed = lane < static_cast<long long>(w.segments);
-  v.dx = px - load(s.x + w.q);
-  v.dy = py - load(s.y + w.q);
-  v.ex = load(s.ex + w.q);
-  v.ey = load(s.ey + w.q);
-  const Double8 inverse2 = load(s.inverse_length2 + w.q);
-  v.t = (v.dx * v.ex + v.dy * v.ey) * inverse2;
-  const Mask8 after_start = (v.t > 0.0) & listed;
-  const Mask8 after_end = (v.t >= 1.0) & listed;
-  const Mask8 previous_after_end = shift_up(after_end);
+  const Mask8 listed = first_lanes_halves(a.segments, b.segments);
+  v.dx = broadcast_halves(s.x[a.p], s.x[b.p]) - load_halves(s.x + a.q, s.x + b.q);
+  v.dy = broadcast_halves(s.y[a.p], s.y[b.p]) - load_halves(s.y + a.q, s.y + b.q);
+  v.ex = load_halves(s.ex + a.q, s.ex + b.q);
+  v.ey = load_halves(s.ey + a.q, s.ey + b.q);
+  v.inverse_length2 = load_halves(s.inverse_length2 + a.q, s.inverse_length2 + b.q);
+  v.t = (v.dx * v.ex + v.dy * v.ey) * v.inverse_length2;
+  const Mask8 after_start = less(0.0, v.t) & listed;
+  const Mask8 after_end = ~less(v.t, 1.0) & listed;
+  const Mask8 previous_after_end = shift_up_halves(after_end);
   const Double8 cross = v.dx * v.ey - v.dy * v.ex;
-  v.segment_d2 = cross * cross * inverse2;
+  v.segment_d2 = cross * cross * v.inverse_length2;
   v.point_d2 = v.dx * v.dx + v.dy * v.dy;
-  v.segment = after_start & ~after_end & (v.segment_d2 < c.cutoff2);
-  v.point = (after_start ^ previous_after_end) & (v.point_d2 < c.cutoff2);
+  v.segment = after_start & ~after_end & less(v.segment_d2, c.cutoff2);
+  v.point = (after_start ^ previous_after_end) & less(v.point_d2, c.cutoff2);
   v.sign = select(previous_after_end, broadcast(1.0), broadcast(-1.0));
   return v;
 }
 
+SUTURE_INLINE void add_windows(const Shell& s, const ContactScalars& c, const Window& a, const Window& b) {
+  const WindowState v = classify(s, c, a, b);
+  if (!any(v.segment | v.point)) return;
+  const Double8 zero{};  // a dead lane may hold anything, infinity too
+  const Double8 f = select(v.segment, force_over_distance(c, v.segment_d2), zero);
+  const Double8 g = select(v.point, force_over_distance(c, v.point_d2) * v.sign, zero);
+  const Double8 t = select(v.segment, v.t, zero);
+  const Double8 segment_x = f * (v.dx - t * v.ex), segment_y = f * (v.dy - t * v.ey);
+  const Double8 fx = segment_x + g * v.dx, fy = segment_y + g * v.dy;
+  const Double8 ahead_x = t * segment_x, ahead_y = t * segment_y;
+  double on_vertex[4];
+  sum_halves(fx, fy, on_vertex);
+  s.gx[a.p] += on_vertex[0];
+  s.gy[a.p] += on_vertex[1];
+  s.gx[b.p] += on_vertex[2];
+  s.gy[b.p] += on_vertex[3];
+  subtract_halves(s.gx + a.q, s.gx + b.q, (fx - ahead_x) + shift_up_halves(ahead_x));
+  subtract_halves(s.gy + a.q, s.gy + b.q, (fy - ahead_y) + shift_up_halves(ahead_y));
+}
+
+/// Partner of an odd last window: the same place without segments.
+inline Window without_segments(const Window& w) { return {w.p, w.q, 0}; }
+
 void contact_gradient(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                       const SelfPair* pairs, std::size_t pair_count) {
-  Double8 sum_x{}, sum_y{};  // of the windows of one vertex, which follow one another
-  for (std::size_t k = 0; k < window_count; ++k) {
-    const Window& w = windows[k];
-    if (k > 0 && w.p != windows[k - 1].p) {
-      s.gx[windows[k - 1].p] += sum(sum_x);
-      s.gy[windows[k - 1].p] += sum(sum_y);
-      sum_x = sum_y = Double8{};
-    }
-    const WindowState v = classify(s, c, w, s.x[w.p], s.y[w.p]);
-    const Mask8 live = v.segment | v.point;
-    if (!any(live)) continue;
-    // A lane is mostly a segment or a point; the rare lane that is both gets its point added below.
-    const Double8 t = select(v.segment, v.t, Double8{});
-    Double8 f = force_over_distance(c, select(v.segment, v.segment_d2, v.point_d2));
-    f = select(live, select(v.segment, f, f * v.sign), Double8{});
-    Double8 fx = f * (v.dx - t * v.ex), fy = f * (v.dy - t * v.ey);
-    const Double8 ahead_x = t * fx, ahead_y = t * fy;
-    Double8 on_x = fx - ahead_x, on_y = fy - ahead_y;
-    const Mask8 both = v.segment & v.point;
-    if (any(both)) {
-      const Double8 g = select(both, force_over_distance(c, v.point_d2) * v.sign, Double8{});
-      const Double8 hx = g * v.dx, hy = g * v.dy;
-      fx += hx, fy += hy, on_x += hx, on_y += hy;
-    }
-    sum_x += fx;
-    sum_y += fy;
-    store(s.gx + w.q, load(s.gx + w.q) - (on_x + shift_up(ahead_x)));
-    store(s.gy + w.q, load(s.gy + w.q) - (on_y + shift_up(ahead_y)));
-  }
-  if (window_count > 0) {
-    s.gx[windows[window_count - 1].p] += sum(sum_x);
-    s.gy[windows[window_count - 1].p] += sum(sum_y);
-  }
+  const std::size_t share = window_count / 8;
+  for (std::size_t k = 0; k < share; ++k)
+    for (std::size_t j = 0; j < 4; ++j) add_windows(s, c, windows[k + j * share], windows[k + (j + 4) * share]);
+  for (std::size_t k = 8 * share; k < window_count; ++k) add_windows(s, c, windows[k], without_segments(windows[k]));
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
@@ -91,30 +85,47 @@ inline ContactFactor point_factor(const ContactScalars& c, int p, int q, double 
   return {dx * inverse, dy * inverse, 0.0, std::fmax(sign * second, lowest), std::fmax(sign * over, lowest), 0.0, 0.0, p, q};
 }
 
+SUTURE_INLINE ContactFactor* add_factors(const Shell& s, const ContactScalars& c, const Window& a, const Window& b, double lowest,
+                                         ContactFactor* out) {
+  const WindowState v = classify(s, c, a, b);
+  const unsigned segments = bits(v.segment), points = bits(v.point);
+  if ((segments | points) == 0) return out;
+  const auto first_slot = [&](int lane) { return lane < 4 ? a.q + lane : b.q + lane - 4; };
+  const auto vertex = [&](int lane) { return lane < 4 ? a.p : b.p; };
+  if (segments != 0) {
+    const Double8 inverse = inverse_square_root(v.segment_d2), d = v.segment_d2 * inverse;
+    const Mask8 inner = less(v.segment_d2, c.inner2);
+    const Double8 second = select(inner, broadcast(c.inner_b), broadcast(c.outer_b));
+    const Double8 slope = select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) + second * d;  // u'
+    const Double8 nx = (v.dx - v.t * v.ex) * inverse, ny = (v.dy - v.t * v.ey) * inverse;
+    // The tangent below is n rotated by -90 degrees; sign it along the segment.
+    const Double8 along = select(less(nx * v.ey, ny * v.ex), broadcast(1.0), broadcast(-1.0));
+    const Double8 shared = -slope * v.inverse_length2;
+    double column[6][lanes];
+    store(column[0], nx);
+    store(column[1], ny);
+    store(column[2], v.t);
+    store(column[3], maximum(second, broadcast(lowest)));
+    store(column[4], shared * inverse_square_root(v.inverse_length2) * along);
+    store(column[5], shared * d);
+    for (unsigned m = segments; m != 0; m &= m - 1) {
+      const int j = __builtin_ctz(m);
+      *out++ = {column[0][j], column[1][j], column[2][j], column[3][j], 0.0, column[4][j], column[5][j], vertex(j), first_slot(j)};
+    }
+  }
+  for (unsigned m = points; m != 0; m &= m - 1) {
+    const int j = __builtin_ctz(m);
+    *out++ = point_factor(c, vertex(j), first_slot(j), v.dx[j], v.dy[j], v.sign[j], lowest);
+  }
+  return out;
+}
+
 std::size_t contact_linearise(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                               const SelfPair* pairs, std::size_t pair_count, double lowest, ContactFactor* factors) {
   ContactFactor* out = factors;
-  for (std::size_t k = 0; k < window_count; ++k) {
-    const Window& w = windows[k];
-    const WindowState v = classify(s, c, w, s.x[w.p], s.y[w.p]);
-    for (unsigned m = bits(v.segment); m != 0; m &= m - 1) {
-      const int j = __builtin_ctz(m);
-      const double t = v.t[j], d2 = v.segment_d2[j];
-      const double inverse = 1.0 / std::sqrt(d2), d = d2 * inverse;
-      const double inverse_length2 = s.inverse_length2[w.q + j], inverse_length = std::sqrt(inverse_length2);
-      const bool inner = d2 < c.inner2;
-      const double second = inner ? c.inner_b : c.outer_b;
-      const double slope = (inner ? c.inner_a : c.outer_a) + second * d;  // u'
-      // The tangent below is n rotated by -90 degrees; sign it along the segment.
-      const double nx = (v.dx[j] - t * v.ex[j]) * inverse, ny = (v.dy[j] - t * v.ey[j]) * inverse;
-      const double along = (ny * v.ex[j] - nx * v.ey[j]) > 0.0 ? 1.0 : -1.0;
-      *out++ = {nx, ny, t, std::fmax(second, lowest), 0.0, -slope * inverse_length * along, -slope * d * inverse_length2, w.p, w.q + j};
-    }
-    for (unsigned m = bits(v.point); m != 0; m &= m - 1) {
-      const int j = __builtin_ctz(m);
-      *out++ = point_factor(c, w.p, w.q + j, v.dx[j], v.dy[j], v.sign[j], lowest);
-    }
-  }
+  const std::size_t even = window_count & ~std::size_t{1};
+  for (std::size_t k = 0; k < even; k += 2) out = add_factors(s, c, windows[k], windows[k + 1], lowest, out);
+  if (even < window_count) out = add_factors(s, c, windows[even], without_segments(windows[even]), lowest, out);
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j];
@@ -147,9 +158,9 @@ void near_segments(const Shell& s, int cell, double px, double py, double reach2
     const Double8 dx = px - load(s.x + b + k), dy = py - load(s.y + b + k);
     const Double8 ex = load(s.ex + b + k), ey = load(s.ey + b + k);
     Double8 t = (dx * ex + dy * ey) * load(s.inverse_length2 + b + k);
-    t = select(t > 0.0, select(t < 1.0, t, broadcast(1.0)), Double8{});
+    t = select(less(0.0, t), select(less(t, 1.0), t, broadcast(1.0)), Double8{});
     const Double8 rx = dx - t * ex, ry = dy - t * ey;
-    unsigned long long mask = bits(rx * rx + ry * ry < reach2);
+    unsigned long long mask = bits(less(rx * rx + ry * ry, reach2));
     if (n - k < lanes) mask &= (1ull << (n - k)) - 1;
     if (k % 64 == 0) words[k / 64] = 0;
     words[k / 64] |= mask << (k % 64);

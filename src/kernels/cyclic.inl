@@ -23,6 +23,7 @@ inline double square_root(double a) { return std::sqrt(a); }
 inline double maximum(double a, double b) { return a > b ? a : b; }
 
 inline double select(bool m, double a, double b) { return m ? a : b; }
+inline bool less(double a, double b) { return a < b; }
 
 /// Inverse of the pivot `a`. One whose lowest eigenvalue is below `floor` shows an indefinite matrix: it is lifted to the
 /// scale of the diagonal block it came from, which keeps the factors definite and bounded (lifted to the floor only,
@@ -32,7 +33,7 @@ inline Block2<T> safe_inverse(Block2<T> a, const Block2<T>& original, double flo
   const T mean = 0.5 * (a.xx + a.yy), half = 0.5 * (a.xx - a.yy);
   const T lowest = mean - square_root(half * half + a.xy * a.xy);
   const T scale = maximum(0.5 * (original.xx + original.yy), T{} + 1.0);
-  const T lift = select(lowest < floor, scale - lowest, T{});
+  const T lift = select(less(lowest, floor), scale - lowest, T{});
   a.xx += lift, a.yy += lift;
   const T inverse = 1.0 / (a.xx * a.yy - a.xy * a.xy);
   return {a.yy * inverse, -a.xy * inverse, -a.xy * inverse, a.xx * inverse};

@@ -54,7 +54,10 @@ struct ContactScalars {
   double self2 = 0;  ///< s^2
 };
 
-/// Vertex p against `segments` <= 7 consecutive segments that start at slot q of another cell.
+/// Segments of one window at most; with their last end point they fill half a vector.
+constexpr int window_segments = 3;
+
+/// Vertex p against `segments` <= window_segments consecutive segments that start at slot q of another cell.
 struct Window {
   int p, q, segments;
 };
@@ -87,7 +90,7 @@ struct Table {
   /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded.
   void (*shell_product)(const Shell&, const ShellHessian&);
   void (*contact_gradient)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*, std::size_t);
-  /// Appends live terms; returns their number. `factors` must have room for 16 per window and 1 per pair.
+  /// Appends live terms; returns their number. `factors` must have room for 8 per window and 1 per pair.
   std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*,
                                    std::size_t, double lowest_curvature, ContactFactor* factors);
   void (*contact_product)(const ContactFactor*, std::size_t, const double* vx, const double* vy, double* ox, double* oy);

@@ -24,12 +24,19 @@ inline Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, 
   const Double8 cross = ex0 * ey1 - ey0 * ex1;
   const Double8 dot = ex0 * ex1 + ey0 * ey1;
   const Double8 d = l0 * l1 + dot;
-  const Double8 w = cross / (d + square_root(d * d + cross * cross));  // tan(theta/4)
+  const Double8 h = d * d + cross * cross;
+  const Double8 w = cross * inverse(d + h * inverse_square_root(h));  // tan(theta/4)
   Double8 angle = 4.0 * small_arctangent(w);
-  const Mask8 large = !((w < 0.4143) & (w > -0.4143));  // beyond a right angle, or degenerate
-  if (any(large)) [[unlikely]]
-    for (int k = 0; k < lanes; ++k)
-      if (large[k]) angle[k] = std::atan2(cross[k], dot[k]);
+  const unsigned large = bits(~(less(w, 0.4143) & less(-0.4143, w)));  // beyond a right angle, or degenerate
+  if (large != 0) [[unlikely]] {
+    double exact[lanes];
+    store(exact, angle);
+    for (unsigned m = large; m != 0; m &= m - 1) {
+      const int k = __builtin_ctz(m);
+      exact[k] = std::atan2(cross[k], dot[k]);
+    }
+    angle = load(exact);
+  }
   return angle;
 }
 
@@ -40,15 +47,15 @@ inline void shell_geometry(const Shell& s, int cell) {
   for (int j = b; j < b + m; j += lanes) {
     const Double8 x = load(s.x + j), y = load(s.y + j);
     const Double8 ex = load(s.x + j + 1) - x, ey = load(s.y + j + 1) - y;
-    const Double8 l = square_root(ex * ex + ey * ey);
-    const Double8 inverse = 1.0 / l;
+    const Double8 l2 = ex * ex + ey * ey;
+    const Double8 inverse = inverse_square_root(l2);
+    const Double8 l = select(less(0.0, l2), l2 * inverse, l2);  // an exact zero is reported as such
     store(s.ex + j, ex);
     store(s.ey + j, ey);
     store(s.length + j, l);
     store(s.inverse_length + j, inverse);
     store(s.inverse_length2 + j, inverse * inverse);
-    const Mask8 slot = Mask8{0, 1, 2, 3, 4, 5, 6, 7} + (j - b);
-    const Mask8 own = (slot >= 1) & (slot <= n);
+    const Mask8 own = first_lanes(n + 1 - (j - b)) & ~first_lanes(1 - (j - b));  // slots 1 .. n
     twice_area += select(own, (x - x0) * ey - (y - y0) * ex, Double8{});
   }
   s.area[cell] = 0.5 * sum(twice_area);
@@ -123,8 +130,7 @@ void shell_product(const Shell& s, const ShellHessian& h) {
     for (int j = b; j < b + m; j += lanes) {  // change of direction of each segment
       const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
       store(h.ox + j, load(h.nx + j) * wx + load(h.ny + j) * wy);  // scratch until the last pass
-      const Mask8 slot = Mask8{0, 1, 2, 3, 4, 5, 6, 7} + (j - b);
-      const Mask8 own = (slot >= 1) & (slot <= n);
+      const Mask8 own = first_lanes(n + 1 - (j - b)) & ~first_lanes(1 - (j - b));
       area_change += select(own, load(h.ax + j) * load(h.vx + j) + load(h.ay + j) * load(h.vy + j), Double8{});
     }
     for (int j = b; j < b + m; j += lanes) {

@@ -1,65 +1,268 @@
-// Eight doubles as one value, through GCC's vector extension: one AVX-512 register, two AVX2, four SSE2. The same
-// source is compiled once per instruction set (see kernels.hpp), so nothing here may have external linkage.
+// Eight doubles as one value: one AVX-512 register, two of AVX2, four of SSE2. The same source is compiled once per
+// instruction set (see kernels.hpp), so nothing here may have external linkage. The order of every sum is the same for all.
 #pragma once
+
+#include <immintrin.h>
 
 #include <cmath>
 #include <initializer_list>
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
+
+#define SUTURE_INLINE __attribute__((always_inline)) inline
 
 namespace {
 
-typedef double Double8 __attribute__((vector_size(64)));
-typedef long long Mask8 __attribute__((vector_size(64)));
-typedef double UnalignedDouble8 __attribute__((vector_size(64), aligned(8), may_alias));
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+constexpr int width = 8;
+#elif defined(__AVX2__)
+constexpr int width = 4;
+#else
+constexpr int width = 2;
+#endif
+constexpr int lanes = 8, registers = lanes / width;
 
-constexpr int lanes = 8;
+typedef double Native __attribute__((vector_size(width * 8)));
+typedef double UnalignedNative __attribute__((vector_size(width * 8), aligned(8), may_alias));
 
-inline Double8 load(const double* p) { return *reinterpret_cast<const UnalignedDouble8*>(p); }
-inline void store(double* p, Double8 v) { *reinterpret_cast<UnalignedDouble8*>(p) = v; }
-inline Double8 broadcast(double a) { return Double8{a, a, a, a, a, a, a, a}; }
+struct Double8 {
+  Native r[registers];
+  SUTURE_INLINE double operator[](int k) const { return r[k / width][k % width]; }
+};
 
-inline Double8 square_root(Double8 a) {
+SUTURE_INLINE Double8 load(const double* p) {
+  Double8 a;
+  for (int i = 0; i < registers; ++i) a.r[i] = *reinterpret_cast<const UnalignedNative*>(p + i * width);
+  return a;
+}
+SUTURE_INLINE void store(double* p, Double8 a) {
+  for (int i = 0; i < registers; ++i) *reinterpret_cast<UnalignedNative*>(p + i * width) = a.r[i];
+}
+SUTURE_INLINE Double8 broadcast(double a) {
+  Double8 b;
+  for (int i = 0; i < registers; ++i) b.r[i] = a - Native{};
+  return b;
+}
+
+#define SUTURE_OPERATOR(op)                                                    \
+  SUTURE_INLINE Double8 operator op(Double8 a, Double8 b) {                    \
+    for (int i = 0; i < registers; ++i) a.r[i] = a.r[i] op b.r[i];             \
+    return a;                                                                  \
+  }                                                                            \
+  SUTURE_INLINE Double8 operator op(Double8 a, double b) { return a op broadcast(b); } \
+  SUTURE_INLINE Double8 operator op(double a, Double8 b) { return broadcast(a) op b; } \
+  SUTURE_INLINE Double8& operator op##=(Double8& a, Double8 b) { return a = a op b; }
+SUTURE_OPERATOR(+)
+SUTURE_OPERATOR(-)
+SUTURE_OPERATOR(*)
+SUTURE_OPERATOR(/)
+#undef SUTURE_OPERATOR
+SUTURE_INLINE Double8 operator-(Double8 a) {
+  for (int i = 0; i < registers; ++i) a.r[i] = -a.r[i];
+  return a;
+}
+
+SUTURE_INLINE Double8 square_root(Double8 a) {
+  for (int i = 0; i < registers; ++i) {
 #if defined(__AVX512F__)
-  return reinterpret_cast<Double8>(_mm512_sqrt_pd(reinterpret_cast<__m512d>(a)));
+    a.r[i] = _mm512_sqrt_pd(a.r[i]);
+#elif defined(__AVX2__)
+    a.r[i] = _mm256_sqrt_pd(a.r[i]);
 #else
-  Double8 r;
-  for (int k = 0; k < lanes; ++k) r[k] = std::sqrt(a[k]);
-  return r;
+    a.r[i] = _mm_sqrt_pd(a.r[i]);
+#endif
+  }
+  return a;
+}
+
+/// 1/sqrt(a) to 2 ulp. Division and square root are the slowest instructions of the rate: AVX-512 starts from 14 bits and
+/// doubles them twice, which takes a third of the time.
+SUTURE_INLINE Double8 inverse_square_root(Double8 a) {
+#if defined(__AVX512F__)
+  const Double8 r{{_mm512_rsqrt14_pd(a.r[0])}}, half = 0.5 * a;
+  const Double8 s = r * (1.5 - half * r * r);
+  return s + s * (0.5 - half * s * s);
+#else
+  return 1.0 / square_root(a);
 #endif
 }
 
-inline Double8 select(Mask8 m, Double8 a, Double8 b) { return m ? a : b; }
-
-/// Lane k receives lane k - 1; lane 0 receives zero.
-inline Double8 shift_up(Double8 a) {
-  return __builtin_shuffle(Double8{}, a, Mask8{0, 8, 9, 10, 11, 12, 13, 14});
-}
-inline Mask8 shift_up(Mask8 a) { return __builtin_shuffle(Mask8{}, a, Mask8{0, 8, 9, 10, 11, 12, 13, 14}); }
-
-inline unsigned bits(Mask8 m) {
-#if defined(__AVX512DQ__)
-  return _mm512_movepi64_mask(reinterpret_cast<__m512i>(m));
+/// 1/a to 2 ulp.
+SUTURE_INLINE Double8 inverse(Double8 a) {
+#if defined(__AVX512F__)
+  const Double8 r{{_mm512_rcp14_pd(a.r[0])}};
+  const Double8 s = r + r * (1.0 - a * r);
+  return s + s * (1.0 - a * s);
 #else
+  return 1.0 / a;
+#endif
+}
+
+/// One truth per lane: a mask register of AVX-512, registers of all-ones and all-zeros otherwise.
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+struct Mask8 {
+  __mmask8 m;
+};
+SUTURE_INLINE Mask8 less(Double8 a, Double8 b) { return {_mm512_cmp_pd_mask(a.r[0], b.r[0], _CMP_LT_OQ)}; }
+SUTURE_INLINE Double8 select(Mask8 m, Double8 a, Double8 b) { return {{_mm512_mask_blend_pd(m.m, b.r[0], a.r[0])}}; }
+SUTURE_INLINE unsigned bits(Mask8 a) { return a.m; }
+SUTURE_INLINE Mask8 from_bits(unsigned bits) { return {static_cast<__mmask8>(bits)}; }
+SUTURE_INLINE Mask8 operator&(Mask8 a, Mask8 b) { return from_bits(a.m & b.m); }
+SUTURE_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return from_bits(a.m | b.m); }
+SUTURE_INLINE Mask8 operator^(Mask8 a, Mask8 b) { return from_bits(a.m ^ b.m); }
+SUTURE_INLINE Mask8 operator~(Mask8 a) { return from_bits(~a.m); }
+#else
+typedef long long NativeMask __attribute__((vector_size(width * 8)));
+struct Mask8 {
+  NativeMask m[registers];
+};
+SUTURE_INLINE Mask8 less(Double8 a, Double8 b) {
+  Mask8 r;
+  for (int i = 0; i < registers; ++i) r.m[i] = a.r[i] < b.r[i];
+  return r;
+}
+SUTURE_INLINE Double8 select(Mask8 m, Double8 a, Double8 b) {
+  for (int i = 0; i < registers; ++i)
+    a.r[i] = reinterpret_cast<Native>((m.m[i] & reinterpret_cast<NativeMask>(a.r[i])) | (~m.m[i] & reinterpret_cast<NativeMask>(b.r[i])));
+  return a;
+}
+SUTURE_INLINE unsigned bits(Mask8 a) {
   unsigned r = 0;
-  for (int k = 0; k < lanes; ++k) r |= (m[k] ? 1u : 0u) << k;
+  for (int i = 0; i < registers; ++i) {
+#if defined(__AVX2__)
+    r |= static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(a.m[i]))) << (i * width);
+#else
+    r |= static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<__m128d>(a.m[i]))) << (i * width);
+#endif
+  }
+  return r;
+}
+alignas(64) constexpr long long ladder[24] = {0, 0, 0, 0, 0, 0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1, 0, 0, 0, 0, 0, 0, 0, 0};
+SUTURE_INLINE Mask8 from_bits(unsigned bits) {
+  Mask8 r;
+  for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = bits >> k & 1u ? -1 : 0;
+  return r;
+}
+#define SUTURE_OPERATOR(op)                                     \
+  SUTURE_INLINE Mask8 operator op(Mask8 a, Mask8 b) {           \
+    for (int i = 0; i < registers; ++i) a.m[i] = a.m[i] op b.m[i]; \
+    return a;                                                   \
+  }
+SUTURE_OPERATOR(&)
+SUTURE_OPERATOR(|)
+SUTURE_OPERATOR(^)
+#undef SUTURE_OPERATOR
+SUTURE_INLINE Mask8 operator~(Mask8 a) {
+  for (int i = 0; i < registers; ++i) a.m[i] = ~a.m[i];
+  return a;
+}
+#endif
+SUTURE_INLINE Mask8 less(Double8 a, double b) { return less(a, broadcast(b)); }
+SUTURE_INLINE Mask8 less(double a, Double8 b) { return less(broadcast(a), b); }
+SUTURE_INLINE bool any(Mask8 a) { return bits(a) != 0; }
+/// Lanes 0 .. n-1; all for n > 8, none for n < 0.
+SUTURE_INLINE Mask8 first_lanes(int n) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return from_bits(n >= lanes ? 0xffu : n <= 0 ? 0u : (1u << n) - 1u);
+#else
+  const long long* p = ladder + 16 - (n >= lanes ? lanes : n <= 0 ? 0 : n);
+  Mask8 r;
+  for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = p[k];
   return r;
 #endif
 }
-inline bool any(Mask8 m) { return bits(m) != 0; }
 
-/// Sum in one fixed order, the same for every instruction set.
-inline double sum(Double8 a) {
-  a += __builtin_shuffle(a, Mask8{4, 5, 6, 7, 0, 1, 2, 3});
-  a += __builtin_shuffle(a, Mask8{2, 3, 0, 1, 6, 7, 4, 5});
-  return a[0] + a[1];
+SUTURE_INLINE Double8 maximum(Double8 a, Double8 b) { return select(less(b, a), a, b); }
+
+/// Sum of all lanes.
+SUTURE_INLINE double sum(Double8 a) {
+  const double even = (a[0] + a[4]) + (a[2] + a[6]), odd = (a[1] + a[5]) + (a[3] + a[7]);
+  return even + odd;
 }
 
-inline Double8 maximum(Double8 a, Double8 b) { return select(a > b, a, b); }
+// The contact kernel works on two windows of four lanes each.
+
+/// Lanes 0-3 from p, lanes 4-7 from q.
+SUTURE_INLINE Double8 load_halves(const double* p, const double* q) {
+#if defined(__AVX512F__)
+  return {{_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(p)), _mm256_loadu_pd(q), 1)}};
+#else
+  Double8 a;
+  for (int i = 0; i < registers; ++i)
+    a.r[i] = *reinterpret_cast<const UnalignedNative*>(i < registers / 2 ? p + i * width : q + (i - registers / 2) * width);
+  return a;
+#endif
+}
+SUTURE_INLINE Double8 broadcast_halves(double p, double q) {
+#if defined(__AVX512F__)
+  return {{_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_set1_pd(p)), _mm256_set1_pd(q), 1)}};
+#else
+  Double8 a;
+  for (int i = 0; i < registers; ++i) a.r[i] = (i < registers / 2 ? p : q) - Native{};
+  return a;
+#endif
+}
+/// p[k] -= a[k], then q[k] -= a[4 + k], k < 4; p and q may overlap.
+SUTURE_INLINE void subtract_halves(double* p, double* q, Double8 a) {
+#if defined(__AVX512F__)
+  _mm256_storeu_pd(p, _mm256_sub_pd(_mm256_loadu_pd(p), _mm512_castpd512_pd256(a.r[0])));
+  _mm256_storeu_pd(q, _mm256_sub_pd(_mm256_loadu_pd(q), _mm512_extractf64x4_pd(a.r[0], 1)));
+#else
+  for (int i = 0; i < registers; ++i) {
+    UnalignedNative* at = reinterpret_cast<UnalignedNative*>(i < registers / 2 ? p + i * width : q + (i - registers / 2) * width);
+    *at = *at - a.r[i];
+  }
+#endif
+}
+/// Lane k of each half receives lane k - 1 of it; its first lane receives zero.
+SUTURE_INLINE Double8 shift_up_halves(Double8 a) {
+#if defined(__AVX512F__)
+  return {{_mm512_maskz_permutex_pd(0xee, a.r[0], 0x90)}};
+#elif defined(__AVX2__)
+  for (int i = 0; i < registers; ++i) a.r[i] = _mm256_blend_pd(_mm256_permute4x64_pd(a.r[i], 0x90), _mm256_setzero_pd(), 1);
+  return a;
+#else
+  return {{_mm_shuffle_pd(_mm_setzero_pd(), a.r[0], 0), _mm_shuffle_pd(a.r[0], a.r[1], 1),
+           _mm_shuffle_pd(_mm_setzero_pd(), a.r[2], 0), _mm_shuffle_pd(a.r[2], a.r[3], 1)}};
+#endif
+}
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+SUTURE_INLINE Mask8 shift_up_halves(Mask8 a) { return from_bits((a.m << 1) & 0xee); }
+#else
+SUTURE_INLINE Mask8 shift_up_halves(Mask8 a) {
+  Double8 b;
+  for (int i = 0; i < registers; ++i) b.r[i] = reinterpret_cast<Native>(a.m[i]);
+  b = shift_up_halves(b);
+  for (int i = 0; i < registers; ++i) a.m[i] = reinterpret_cast<NativeMask>(b.r[i]);
+  return a;
+}
+#endif
+/// Lanes 0 .. m-1 of the first half and 0 .. n-1 of the second.
+SUTURE_INLINE Mask8 first_lanes_halves(int m, int n) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return from_bits(((1u << m) - 1u) | (((1u << n) - 1u) << 4));
+#else
+  const long long *p = ladder + 16 - m, *q = ladder + 16 - n;
+  Mask8 r;
+  for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = k < 4 ? p[k] : q[k - 4];
+  return r;
+#endif
+}
+/// Sums of the halves of a and b: out = {a first, b first, a second, b second}.
+SUTURE_INLINE void sum_halves(Double8 a, Double8 b, double* out) {
+#if defined(__AVX512F__)
+  const __m512d pairs = _mm512_add_pd(_mm512_unpacklo_pd(a.r[0], b.r[0]), _mm512_unpackhi_pd(a.r[0], b.r[0]));
+  const __m512d all = _mm512_add_pd(pairs, _mm512_permutex_pd(pairs, 0x4e));
+  _mm_storeu_pd(out, _mm512_castpd512_pd128(all));
+  _mm_storeu_pd(out + 2, _mm512_extractf64x2_pd(all, 2));
+#else
+  for (int h = 0; h < 2; ++h) {
+    out[2 * h] = (a[4 * h] + a[4 * h + 1]) + (a[4 * h + 2] + a[4 * h + 3]);
+    out[2 * h + 1] = (b[4 * h] + b[4 * h + 1]) + (b[4 * h + 2] + b[4 * h + 3]);
+  }
+#endif
+}
 
 /// atan(w) for |w| <= tan(pi/8): odd polynomial of degree 21, relative error 2.3e-16 (own Chebyshev fit).
-inline Double8 small_arctangent(Double8 w) {
+SUTURE_INLINE Double8 small_arctangent(Double8 w) {
   const Double8 u = w * w;
   Double8 p = broadcast(0.021128607504723874);
   p = p * u - 0.04347499662667871;

@@ -67,29 +67,37 @@ void ContactList::find_neighbor_cells(const kernels::Shell& shell) {
 }
 
 void ContactList::add_windows(const kernels::Shell& shell, const kernels::Table& kernel, int cell, int slot) {
-  constexpr int window_segments = 7;
   const double margin = reach_ + skin_, px = shell.x[slot], py = shell.y[slot];
   for (int k = neighbor_start_[cell]; k < neighbor_start_[cell + 1]; ++k) {
     const int other = neighbors_[k];
     const Box& b = boxes_[other];
     if (px < b.x0 - margin || px > b.x1 + margin || py < b.y0 - margin || py > b.y1 + margin) continue;
     kernel.near_segments(shell, other, px, py, margin * margin, words_.data());
-    const int n = shell.count[other];
-    const auto near = [&](int s) { return (words_[s / 64] >> (s % 64) & 1) != 0; };
-    int first = 0;  // a segment not in reach, so that no run is cut where the numbering starts
-    while (first < n && near(first)) ++first;
-    if (first == n) first = 0;
-    for (int s = 0; s < n;) {
-      if (!near((first + s) % n)) {
-        ++s;
-        continue;
-      }
-      int length = 1, last = 1;
-      for (; length < window_segments && s + length < n; ++length)
-        if (near((first + s + length) % n)) last = length + 1;
-      windows_.push_back({slot, shell.base[other] + 1 + (first + s) % n, last});
-      s += last;
+    cut_windows(slot, shell.base[other] + 1, shell.count[other]);
+  }
+}
+
+/// Windows over the near segments of one cell, from the bits of words_. Numbering is cyclic: a run that goes over the end
+/// is taken up at its beginning, so that it is not cut there.
+void ContactList::cut_windows(int slot, int first_slot, int n) {
+  near_.clear();
+  for (int w = 0; 64 * w < n; ++w)
+    for (unsigned long long word = words_[w]; word != 0; word &= word - 1) near_.push_back(64 * w + __builtin_ctzll(word));
+  const int count = static_cast<int>(near_.size());
+  if (count == 0) return;
+  int lead = 0;  // where the run over the end begins in near_
+  if (near_.front() == 0 && near_.back() == n - 1)
+    for (lead = count - 1; lead > 1 && near_[lead - 1] == near_[lead] - 1;) --lead;
+  const auto ordered = [&](int k) { return near_[lead + k < count ? lead + k : lead + k - count]; };
+  for (int k = 0; k < count;) {
+    const int first = ordered(k);
+    int length = 1;
+    for (++k; k < count; ++k) {
+      const int next = ordered(k), ahead = next >= first ? next - first : next + n - first;
+      if (ahead >= kernels::window_segments) break;
+      length = ahead + 1;
     }
+    windows_.push_back({slot, first_slot + first, length});
   }
 }
 

@@ -28,6 +28,7 @@ class ContactList {
   };
   void find_neighbor_cells(const kernels::Shell& shell);
   void add_windows(const kernels::Shell& shell, const kernels::Table& kernel, int cell, int slot);
+  void cut_windows(int slot, int first_slot, int n);
   void add_self_pairs(const kernels::Shell& shell, int cell);
 
   double reach_ = 0.0, self_reach_ = 0.0, skin_ = 0.0;
@@ -36,7 +37,8 @@ class ContactList {
   std::vector<Box> boxes_;
   std::vector<int> bucket_start_, bucket_cells_, bucket_of_;  // cells sorted by the grid bucket of their box corner
   std::vector<int> neighbor_start_, neighbors_;               // cells whose boxes come within reach + skin
-  std::vector<unsigned long long> words_;
+  std::vector<unsigned long long> words_;  // near segments of one cell, as bits
+  std::vector<int> near_;                  // and as numbers
 };
 
 }  // namespace suture

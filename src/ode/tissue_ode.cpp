@@ -243,7 +243,7 @@ void TissueOde::linearise() {
   // not accuracy (studies: 918 -> 20 negative-curvature stops).
   const double lowest = -0.3 / m.gamma;
   m.kernel.shell_linearise(m.padded.shell, m.padded.hessian);
-  m.factors.resize(std::max(m.factors.size(), 16 * m.list.windows().size() + m.list.self_pairs().size()));
+  m.factors.resize(std::max(m.factors.size(), 8 * m.list.windows().size() + m.list.self_pairs().size()));
   m.factor_count = m.kernel.contact_linearise(m.padded.shell, m.contact, m.list.windows().data(), m.list.windows().size(),
                                               m.list.self_pairs().data(), m.list.self_pairs().size(), lowest, m.factors.data());
   m.extra_blocks.clear();

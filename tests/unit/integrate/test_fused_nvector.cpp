@@ -11,7 +11,7 @@ namespace {
 struct Fixture {
   explicit Fixture(std::size_t n) {
     SUNContext_Create(nullptr, &context);
-    for (N_Vector* v : {&x, &y, &z, &w}) *v = make_fused_vector(n, context);
+    for (N_Vector* v : {&x, &y, &z, &w}) *v = make_fused_vector(n, context, std::make_shared<VectorFamily>());
     for (std::size_t k = 0; k < n; ++k) {
       values(x)[k] = std::sin(k + 1.0);
       values(y)[k] = 2.0 + std::cos(2.0 * k);
