@@ -26,7 +26,9 @@ constexpr AddCommand commands[] = {
     add_check_command,
     add_config_command,
     add_forces_command,
+    add_recover_command,
     add_run_command,
+    add_status_command,
     add_validate_command,
 };
 

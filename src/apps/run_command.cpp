@@ -2,14 +2,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "progress_line.hpp"
+#include "stop_request.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
 #include "suture/simulate/run.hpp"
@@ -18,18 +19,11 @@ namespace suture {
 
 namespace {
 
-volatile std::sig_atomic_t stop_requested = 0;
-
-/// The first signal asks for an orderly stop, the second one is obeyed at once.
-void on_signal(int signal) {
-  if (stop_requested != 0) std::_Exit(128 + signal);
-  stop_requested = 1;
-}
-
 struct Options {
   std::string file, directory = "out";
   std::vector<std::string> overrides;
-  bool quiet = false;
+  std::string max_wall;
+  bool quiet = false, resume = false, overwrite = false;
 };
 
 std::string read_text(const std::string& file) {
@@ -65,17 +59,32 @@ std::string verdict(const RunOutcome& outcome) {
     case RunStatus::closed: return fmt::format("wound closed at t = {}", time(s.t_closed));
     case RunStatus::reached_t_end:
       return s.wound_area_max ? fmt::format("end time reached, wound still open (half closed at {})", time(s.t_50)) : "finished";
-    case RunStatus::stopped: return "stopped early";
+    case RunStatus::stopped: return "stopped early, --resume continues";
     case RunStatus::failed: return "failed";
   }
   return "";
 }
 
+/// False when nothing is left to be done.
+bool is_to_be_run(const Options& options) {
+  const DirectoryContent content = content_of(options.directory);
+  if (content == DirectoryContent::unfinished && !options.resume && !options.overwrite)
+    throw InputError(fmt::format("{}: holds a run that is not finished; --resume continues it, --overwrite starts again",
+                                 options.directory));
+  return !(options.resume && content == DirectoryContent::finished);
+}
+
 void run(const Options& options, CommandResult& result) {
   const Config config = read_config(options.file, options.overrides);
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  RunRequest request{config, provenance_of(options, config), options.directory, {}, [] { return stop_requested != 0; }};
+  const std::optional<double> max_wall =
+      options.max_wall.empty() ? std::nullopt : std::optional(parse_wall_time(options.max_wall, "--max-wall"));
+  if (!is_to_be_run(options)) {
+    if (!options.quiet) std::cout << fmt::format("already finished; results in {}\n", options.directory);
+    return;
+  }
+  const StopRequest stop(max_wall);
+  RunRequest request{config, provenance_of(options, config), options.directory, {}, [&stop] { return stop.requested(); },
+                     options.resume};
   RunOutcome outcome;
   {
     ProgressLine line;
@@ -95,6 +104,9 @@ void add_run_command(CLI::App& program, CommandResult& result) {
   command->add_option("CONFIG", options->file, "configuration file (TOML)")->required();
   command->add_option("--out", options->directory, "folder for the results (created)")->capture_default_str();
   add_set_option(*command, options->overrides);
+  command->add_flag("--resume", options->resume, "continue a run that was stopped or killed; start it if there is none");
+  command->add_flag("--overwrite", options->overwrite, "start again although DIR holds an unfinished run");
+  command->add_option("--max-wall", options->max_wall, "stop in time, with a checkpoint: 90s, 30min, 2h, 1d or [D-]HH:MM:SS");
   command->add_flag("--quiet", options->quiet, "no progress");
   command->callback([options, &result] { run(*options, result); });
 }

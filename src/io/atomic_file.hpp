@@ -13,4 +13,11 @@ namespace suture {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
 
+/// Its parts, for a file that something else writes, or that has to be put in place with others.
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+/// Written and flushed to the disk, or gone. Throws FileError.
+void write_temporary(const std::filesystem::path& temporary, std::span<const std::byte> bytes);
+/// rename, fsync of the directory. Throws FileError; when the rename fails, `temporary` is gone.
+void publish_temporary(const std::filesystem::path& temporary, const std::filesystem::path& path);
+
 }  // namespace suture

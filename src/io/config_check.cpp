@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "suture/errors.hpp"
@@ -22,6 +23,7 @@ class Checker {
     check_wound();
     check_purse_string();
     check_single_cell();
+    check_checkpoint();
   }
 
  private:
@@ -89,6 +91,12 @@ class Checker {
     if (config_.run.protocol == Protocol::compression)
       require(compression.closing_time <= compression.duration, "compression.closing_time", compression.closing_time,
               fmt::format("at most compression.duration = {}", compression.duration));
+  }
+
+  void check_checkpoint() const {
+    const CheckpointParameters& checkpoint = config_.checkpoint;
+    require(!checkpoint.reproducible || std::isfinite(checkpoint.interval), "checkpoint.reproducible", "true",
+            "false unless checkpoint.interval is finite");
   }
 
   static constexpr double largest_vertex_count = 2e8;  // state offsets are 32-bit integers

@@ -24,6 +24,7 @@ constexpr std::array sections{
     SectionDescription{"run", "what is run, and until when"},
     SectionDescription{"integrator", "how the equations of motion are solved"},
     SectionDescription{"output", "what is written, and how often"},
+    SectionDescription{"checkpoint", "what a run leaves behind to be continued from"},
     SectionDescription{"units", "physical scales: what one model unit is"},
 };
 
@@ -55,6 +56,8 @@ void append(std::vector<ConfigKey<Config>>& target, Rows&& rows) {
 std::vector<ConfigKey<Config>> program_keys() {
   using C = Config;
   using I = IntegratorParameters;
+  using P = CheckpointParameters;
+  constexpr Measure wall_seconds{Dimension::none, "s of wall time"};
   constexpr Measure area_unit{Dimension::area, "um^2", true};
   constexpr Measure force_unit{Dimension::force, "nN", true};
   constexpr Measure speed_unit{Dimension::speed, "um/s", true};
@@ -92,6 +95,19 @@ std::vector<ConfigKey<Config>> program_keys() {
                                                          "time between stored configurations"),
       key<&C::output, &OutputParameters::pictures>("output", "pictures", pure_number, between(0, 1000),
                                                    "number of pictures drawn along the run"),
+      key<&C::checkpoint, &P::interval>(
+          "checkpoint", "interval", time, positive_or_infinite,
+          "time between checkpoints at times the configuration fixes; the integrator starts afresh at each, and a run "
+          "resumed from one is bit-identical; inf: none"),
+      key<&C::checkpoint, &P::wall_interval>("checkpoint", "wall_interval", wall_seconds, positive_or_infinite,
+                                             "wall time between further checkpoints; inf: none"),
+      key<&C::checkpoint, &P::reproducible>(
+          "checkpoint", "reproducible", pure_number, anything,
+          "save at configured checkpoints only, also when the run is stopped, so that a resumed run is always bit-identical"),
+      key<&C::checkpoint, &P::sync_interval>(
+          "checkpoint", "sync_interval", wall_seconds, {0.0, infinite, true, true},
+          "wall time between flushes of run.journal to the disk; a killed program loses nothing either way, a power failure "
+          "at most this much"),
       key<&C::units, &UnitParameters::rest_area_um2>("units", "rest_area", area_unit, positive,
                                                      "rest area a0 of a cell: embryo 25, larval wing disc 16",
                                                      {.unset = {}, .aliases = {{"a0", false}}}),

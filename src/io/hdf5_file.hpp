@@ -1,7 +1,6 @@
-// The only face of HDF5 in the library: hdf5_file.cpp alone includes its header. Every return code is checked; failures
-// are FileError. Files are written in the 1.8-compatible format (MATLAB R2022a, h5py, ParaView 5.11) and live in memory
-// until image() hands out their bytes, so HDF5 itself never touches the disk on output and a full disk or a kill can
-// not leave a half-written HDF5 file behind. Not for use from several threads at once.
+// The only face of HDF5 in the library: hdf5_*.cpp alone include its header. Every return code is checked; failures are
+// FileError. Files are written in the 1.8-compatible format (MATLAB R2022a, h5py, ParaView 5.11). A file counts only
+// once finish() has returned: write it under a temporary name. Not for use from several threads at once.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace suture {
@@ -23,6 +23,8 @@ class Hdf5Handle {
   Hdf5Handle& operator=(Hdf5Handle&& other) noexcept;
   ~Hdf5Handle();
   std::int64_t id() const { return id_; }
+  /// Gives the identifier away.
+  std::int64_t release() { return std::exchange(id_, -1); }
 
  private:
   std::int64_t id_ = -1;
@@ -84,14 +86,17 @@ class Hdf5Group {
   Hdf5Handle handle_;
 };
 
-/// A new file in memory, or an existing one on disk, opened for reading.
+/// A file on disk or in memory. Groups of it must be gone before it is finished or destroyed.
 class Hdf5File {
  public:
   static Hdf5File create_in_memory();
+  /// Replaces what is there.
+  static Hdf5File create(const std::filesystem::path& path);
+  /// For reading.
   static Hdf5File open(const std::filesystem::path& path);
   Hdf5Group root() const;
-  /// The bytes of the file as it stands: a complete, closed HDF5 file.
-  std::vector<std::byte> image() const;
+  /// Writes what is still in buffers and closes the file.
+  void finish();
 
  private:
   explicit Hdf5File(Hdf5Handle handle) : handle_(std::move(handle)) {}

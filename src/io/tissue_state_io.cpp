@@ -76,18 +76,6 @@ PurseString read_purse_string(const Hdf5Group& group) {
 
 }  // namespace
 
-Hdf5File open_trajectory(const std::filesystem::path& path) {
-  Hdf5File file = Hdf5File::open(path);
-  const Hdf5Group root = file.root();
-  if (!root.has_attribute("schema") || root.text_attribute("schema") != trajectory_schema)
-    throw FileError("it is an HDF5 file, but not a suture trajectory (no schema attribute)");
-  const std::int64_t version = root.integer_attribute("schema_version");
-  if (version != trajectory_schema_version)
-    throw FileError(
-        fmt::format("its layout is version {}; this program reads version {}", version, trajectory_schema_version));
-  return file;
-}
-
 void write_tissue(const Hdf5Group& group, const Tissue& tissue, const std::vector<double>& reference_rest_length) {
   std::vector<int> first_vertex;
   for (int cell = 0; cell < tissue.cell_count(); ++cell) first_vertex.push_back(tissue.first_vertex(cell));

@@ -13,9 +13,6 @@ namespace suture {
 inline constexpr const char* trajectory_schema = "suture-trajectory";
 inline constexpr int trajectory_schema_version = 1;
 
-/// Opens a file and checks its schema attributes. Throws FileError.
-Hdf5File open_trajectory(const std::filesystem::path& path);
-
 /// first_vertex, initial_rest_length, reference_rest_length and one dataset per material property.
 void write_tissue(const Hdf5Group& group, const Tissue& tissue, const std::vector<double>& reference_rest_length);
 

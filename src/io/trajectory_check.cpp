@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "io/tissue_state_io.hpp"
+#include "io/trajectory_file.hpp"
 #include "suture/errors.hpp"
 #include "suture/geometry/polygon.hpp"
 #include "suture/io/cell_csv.hpp"

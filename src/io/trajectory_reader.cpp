@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "io/hdf5_file.hpp"
+#include "io/journal.hpp"
 #include "io/tissue_state_io.hpp"
+#include "io/trajectory_file.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
 
@@ -104,6 +106,18 @@ void read_events(const Hdf5Group& root, Trajectory& trajectory) {
     trajectory.events.push_back({time[i], kind[i], index(cell[i]), index(vertex[i])});
 }
 
+void read_continuations(const Hdf5Group& root, Trajectory& trajectory) {
+  if (!root.has("continuations")) return;
+  const Hdf5Group group = root.group("continuations");
+  const std::vector<double> time = group.doubles("time");
+  const std::vector<int> reproducible = group.integers("reproducible");
+  const std::vector<std::string> started = group.texts("started");
+  if (reproducible.size() != time.size() || started.size() != time.size())
+    throw FileError("the columns of the continuations differ in length");
+  for (std::size_t i = 0; i < time.size(); ++i)
+    trajectory.continuations.push_back({time[i], reproducible[i] == 1, started[i]});
+}
+
 // What is wrong with a file that was handed in is the user's input, whatever layer noticed it.
 template <class Read>
 auto reading(const std::filesystem::path& path, Read read) {
@@ -144,9 +158,65 @@ Trajectory read_trajectory(const std::filesystem::path& path) {
     read_frames(root, trajectory);
     read_observables(root, trajectory);
     read_events(root, trajectory);
+    read_continuations(root, trajectory);
     if (root.has("summary")) trajectory.summary = root.text("summary");
     return trajectory;
   });
+}
+
+struct FrameReader::Impl {
+  Hdf5File file;
+  Hdf5Group root = file.root(), frames = root.group("frames");
+  int count = static_cast<int>(frames.members().size());
+  StoredTissue stored = count > 0 ? read_tissue(root.group("tissue")) : StoredTissue{};
+  std::filesystem::path path;
+
+  TrajectoryFrame frame(int index) const {
+    try {
+      return read_frame(frames.group(fmt::format("{:06}", index)), stored.tissue);
+    } catch (const std::runtime_error& error) {
+      throw InputError(fmt::format("{}: frame {}: {}", path.string(), index, error.what()));
+    }
+  }
+};
+
+FrameReader::FrameReader(const std::filesystem::path& path) try
+    : impl_(new Impl{.file = open_trajectory(path), .path = path}) {
+} catch (const std::runtime_error& error) {
+  throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+}
+
+FrameReader::FrameReader(FrameReader&&) noexcept = default;
+FrameReader::~FrameReader() = default;
+int FrameReader::count() const { return impl_->count; }
+FrameExtras FrameReader::extras(int frame) const { return impl_->frame(frame).extras; }
+double FrameReader::time(int frame) const { return impl_->frames.group(fmt::format("{:06}", frame)).number("time"); }
+
+TissueState FrameReader::state(int frame) const {
+  TrajectoryFrame stored = impl_->frame(frame);
+  return {.tissue = impl_->stored.tissue,
+          .purse_string = std::move(stored.purse_string),
+          .reference_rest_length = impl_->stored.reference_rest_length,
+          .time = stored.time,
+          .values = std::move(stored.values)};
+}
+
+std::vector<WoundSample> read_wound_samples(const std::filesystem::path& journal, std::uint64_t length) {
+  std::vector<WoundSample> samples;
+  try {
+    JournalReader reader(journal);
+    for (std::string block; reader.offset() < length && reader.next(block);) {
+      ByteReader items(block);
+      while (!items.at_end()) {
+        TrajectoryItem item;
+        items(item);
+        if (const auto* sample = std::get_if<WoundSample>(&item)) samples.push_back(*sample);
+      }
+    }
+  } catch (const FileError& error) {
+    throw InputError(error.what());
+  }
+  return samples;
 }
 
 std::pair<Stage, TissueState> read_last_stage(const std::filesystem::path& path) {

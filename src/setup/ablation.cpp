@@ -60,13 +60,14 @@ TissueState remove_cells(const TissueState& state, const std::vector<int>& cells
   return wounded;
 }
 
-Ablated ablate(const Config& config, const TissueState& annealed, const Progress& progress) {
+Ablated ablate(const Config& config, const TissueState& annealed, const Progress& progress,
+               const StepWatch<RelaxationState>& watch) {
   Ablated ablated;
   ablated.removed = central_cells(annealed, config.wound.cells);
   ablated.state = remove_cells(annealed, ablated.removed);
   ablated.statistics = relax_overdamped(
       config, ablated.state, config.wound.relaxation_time,
-      [&progress](double fraction, std::string_view text) { report_progress(progress, "ablation", fraction, text); });
+      [&progress](double fraction, std::string_view text) { report_progress(progress, "ablation", fraction, text); }, watch);
   const std::span<const double> rest_lengths = ablated.state.view().rest_length;
   ablated.state.reference_rest_length.assign(rest_lengths.begin(), rest_lengths.end());
   return ablated;

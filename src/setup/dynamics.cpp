@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "setup/energy_options.hpp"
 #include "suture/errors.hpp"
@@ -63,7 +64,8 @@ std::vector<double> maxwell_velocities(const TissueState& state, double temperat
 }
 
 EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
-                                     std::vector<double>& velocities, double duration, double time_step) {
+                                     std::vector<double>& velocities, double duration, double time_step,
+                                     const StepWatch<ConstantEnergyState>& watch) {
   SUTURE_EXPECTS(velocities.size() == static_cast<std::size_t>(state.layout().positions()));
   const auto steps = static_cast<long>(std::ceil(duration / time_step - 1e-9));
   const double step = steps > 0 ? duration / static_cast<double>(steps) : 0.0;
@@ -82,12 +84,19 @@ EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, T
     return sum;
   };
 
+  double start = state.time;
+  long done = 0;
   EnergyReport report;
-  report.initial = report.final = energy();
-  const double start = state.time;
+  if (watch.resumed) {
+    state = watch.resumed->state;
+    velocities = watch.resumed->velocities;
+    start = watch.resumed->start, done = watch.resumed->steps_done, report = watch.resumed->report;
+  } else {
+    report.initial = report.final = energy();
+  }
   const long sampling = std::max(1L, steps / 10);
   evaluate();
-  for (long n = 1; n <= steps; ++n) {
+  for (long n = done + 1; n <= steps; ++n) {
     kick(0.5 * step);
     for (std::size_t i = 0; i < velocities.size(); ++i) state.values[i] += step * velocities[i];
     state.time = start + static_cast<double>(n) * step;
@@ -97,31 +106,105 @@ EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, T
       report.final = energy();
       report.largest_deviation = std::max(report.largest_deviation, std::abs(report.final - report.initial));
     }
+    if (watch.is_due())
+      watch.offer(SavePoint::between, [&] { return ConstantEnergyState{state, velocities, start, n, report}; });
   }
   return report;
 }
 
-Statistics relax_overdamped(const Config& config, TissueState& state, double duration, const MotionProgress& progress) {
-  if (!(duration > 0.0)) return {};
-  TissueOde ode(state.tissue, 0, elastic_options(config, config.contact.adhesion), {});
-  // Whatever integrator the closure is to be studied with, it starts from the same wound.
-  Config relaxation = config;
-  relaxation.integrator = {.method = Method::cvode, .tolerance = config.anneal.tolerance};
-  const IntegratorOptions options = integrator_options(relaxation, make_tissue(config).mean_initial_rest_length());
-  const auto integrator = make_integrator(ode, options, state.time, state.values);
-  const double start = state.time, end = start + duration;
-  constexpr int reports = 20;
-  for (int part = 1; part <= reports; ++part) {
-    const double stop = part == reports ? end : start + duration * part / reports;
-    while (integrator->time() < stop) integrator->step(end);
-    if (progress)
-      progress(static_cast<double>(part) / reports,
-               fmt::format("overdamped motion, {:.4g} of {:g}", integrator->time() - start, duration));
+namespace {
+
+class Relaxation {
+ public:
+  Relaxation(const Config& config, const TissueState& state, double duration, const MotionProgress& progress,
+             const StepWatch<RelaxationState>& watch)
+      : config_(config),
+        progress_(progress),
+        watch_(watch),
+        now_(watch.resumed ? *watch.resumed : RelaxationState{.state = state, .start = state.time}),
+        duration_(duration),
+        end_(now_.start + duration) {
+    // Whatever integrator the closure is to be studied with, it starts from the same wound.
+    Config relaxation = config;
+    relaxation.integrator = {.method = Method::cvode, .tolerance = config.anneal.tolerance};
+    integrator_options_ = integrator_options(relaxation, make_tissue(config).mean_initial_rest_length());
+    start_integrator();
   }
-  const auto reached = integrator->state();
-  state.values.assign(reached.begin(), reached.end());
-  state.time = end;
-  return integrator->statistics();
+
+  RelaxationState run() {
+    double next = next_multiple(now_.start, config_.checkpoint.interval, integrator_->time());
+    while (integrator_->time() < end_) {
+      const double t = integrator_->step(end_);
+      report(t);
+      if (t >= end_) break;
+      if (t >= next) {
+        save(SavePoint::configured);
+        next = next_multiple(now_.start, config_.checkpoint.interval, t);
+      } else if (watch_.is_due()) {
+        save(SavePoint::between);
+      }
+    }
+    take_state();
+    now_.statistics += integrator_->statistics();
+    now_.state.time = end_;
+    return std::move(now_);
+  }
+
+ private:
+  void start_integrator() {
+    integrator_.reset();
+    ode_ = std::make_unique<TissueOde>(now_.state.tissue, 0, elastic_options(config_, config_.contact.adhesion),
+                                       std::vector<std::shared_ptr<const EnergyTerm>>{});
+    integrator_options_.initial_step = now_.initial_step;
+    integrator_ = make_integrator(*ode_, integrator_options_, now_.state.time, now_.state.values);
+  }
+
+  void take_state() {
+    const auto reached = integrator_->state();
+    now_.state.values.assign(reached.begin(), reached.end());
+    now_.state.time = integrator_->time();
+  }
+
+  void save(SavePoint point) {
+    const Statistics before = now_.statistics;
+    take_state();
+    now_.statistics += integrator_->statistics();
+    ++now_.statistics.restarts;
+    now_.initial_step = restart_step * integrator_->last_step();
+    if (point == SavePoint::configured) start_integrator();
+    watch_.offer(point, [this] { return now_; });
+    if (point != SavePoint::configured) now_.statistics = before;
+  }
+
+  void report(double t) {
+    constexpr int reports = 20;
+    const int part = static_cast<int>(reports * (t - now_.start) / duration_ + 1e-9);
+    if (part > reported_ && progress_)
+      progress_(static_cast<double>(part) / reports, fmt::format("overdamped motion, {:.4g} of {:g}", t - now_.start, duration_));
+    reported_ = part;
+  }
+
+  static constexpr double restart_step = 0.1;  // of the last step: order 1 needs shorter ones
+
+  const Config& config_;
+  const MotionProgress& progress_;
+  const StepWatch<RelaxationState>& watch_;
+  RelaxationState now_;
+  double duration_, end_;
+  IntegratorOptions integrator_options_;
+  std::unique_ptr<TissueOde> ode_;
+  std::unique_ptr<Integrator> integrator_;
+  int reported_ = 0;
+};
+
+}  // namespace
+
+Statistics relax_overdamped(const Config& config, TissueState& state, double duration, const MotionProgress& progress,
+                            const StepWatch<RelaxationState>& watch) {
+  if (!(duration > 0.0)) return {};
+  RelaxationState relaxed = Relaxation(config, state, duration, progress, watch).run();
+  state = std::move(relaxed.state);
+  return relaxed.statistics;
 }
 
 }  // namespace suture

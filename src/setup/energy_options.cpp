@@ -46,7 +46,8 @@ FireOptions fire_options(const Tissue& tissue, const ContactParameters& contact,
           .maximum_displacement = 0.1 * *contact.distance};
 }
 
-FireReport minimise_energy(Fire& fire, TissueOde& ode, TissueState& state, const FireOptions& options) {
+FireReport minimise_energy(Fire& fire, TissueOde& ode, TissueState& state, const FireOptions& options,
+                           const std::function<void()>& between_steps) {
   const StateLayout layout = state.layout();
   const auto gradient = [&](std::span<const double> q, std::span<double> out) {
     StateView view;
@@ -56,7 +57,7 @@ FireReport minimise_energy(Fire& fire, TissueOde& ode, TissueState& state, const
     slope.x = out.first(layout.points()), slope.y = out.last(layout.points());
     return ode.gradient(state.time, view, slope);
   };
-  return fire.minimise(std::span(state.values).first(layout.positions()), gradient, options);
+  return fire.minimise(std::span(state.values).first(layout.positions()), gradient, options, between_steps);
 }
 
 }  // namespace suture

@@ -25,6 +25,7 @@ FireOptions fire_options(const Tissue& tissue, const ContactParameters& contact,
                          int maximum_iterations);
 
 /// Minimises the energy of `ode` from `state` with its rest lengths frozen.
-FireReport minimise_energy(Fire& fire, TissueOde& ode, TissueState& state, const FireOptions& options);
+FireReport minimise_energy(Fire& fire, TissueOde& ode, TissueState& state, const FireOptions& options,
+                           const std::function<void()>& between_steps = {});
 
 }  // namespace suture

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "suture/errors.hpp"
 
@@ -65,45 +66,56 @@ void add_scaled(std::span<double> q, double factor, std::span<const double> velo
 
 }  // namespace
 
-Fire::Fire(std::size_t size) : velocity_(size), gradient_(size) {}
+Fire::Fire(std::size_t size) : state_{.velocity = std::vector<double>(size)}, gradient_(size) {}
 
-FireReport Fire::minimise(std::span<double> q, const GradientFunction& gradient, const FireOptions& options) {
-  SUTURE_EXPECTS(q.size() == velocity_.size());
-  std::fill(velocity_.begin(), velocity_.end(), 0.0);
+void Fire::restore(FireState state) {
+  SUTURE_EXPECTS(state.velocity.size() == gradient_.size());
+  state_ = std::move(state);
+  restored_ = true;
+}
+
+FireReport Fire::minimise(std::span<double> q, const GradientFunction& gradient, const FireOptions& options,
+                          const std::function<void()>& between_steps) {
+  std::vector<double>& velocity = state_.velocity;
+  SUTURE_EXPECTS(q.size() == velocity.size());
+  if (!std::exchange(restored_, false)) {
+    std::fill(velocity.begin(), velocity.end(), 0.0);
+    state_.time_step = options.initial_time_step, state_.mixing = options.initial_mixing;
+    state_.downhill_steps = 0, state_.report = {};
+  }
+  FireReport& report = state_.report;
   if (gradient(q, gradient_) != Evaluation::ok)
     throw NumericalError("FIRE: the forces cannot be computed at the starting configuration");
-  FireReport report;
-  double time_step = options.initial_time_step, mixing = options.initial_mixing;
-  int downhill_steps = 0;
   const auto stop = [&] {
     ++report.uphill_stops;
-    downhill_steps = 0;
-    mixing = options.initial_mixing;
-    time_step = std::max(time_step * options.time_step_cut, options.minimum_time_step);
-    std::fill(velocity_.begin(), velocity_.end(), 0.0);
+    state_.downhill_steps = 0;
+    state_.mixing = options.initial_mixing;
+    state_.time_step = std::max(state_.time_step * options.time_step_cut, options.minimum_time_step);
+    std::fill(velocity.begin(), velocity.end(), 0.0);
   };
   while (true) {
-    Products p = products(velocity_, gradient_);
+    Products p = products(velocity, gradient_);
     report.largest_force = p.largest_force;
     report.converged = report.largest_force < options.force_tolerance;
     if (report.converged || report.iterations >= options.maximum_iterations) return report;
+    if (between_steps) between_steps();
     ++report.iterations;
 
     if (p.power > 0.0) {
-      if (++downhill_steps > options.delay) {
-        time_step = std::min(time_step * options.time_step_growth, options.maximum_time_step);
-        mixing *= options.mixing_decay;
+      if (++state_.downhill_steps > options.delay) {
+        state_.time_step = std::min(state_.time_step * options.time_step_growth, options.maximum_time_step);
+        state_.mixing *= options.mixing_decay;
       }
     } else if (p.speed_squared > 0.0) {
-      add_scaled(q, -0.5 * time_step, velocity_);
+      add_scaled(q, -0.5 * state_.time_step, velocity);
       stop();
       p.power = p.speed_squared = 0.0;
     }
-    const double largest_velocity = turn_velocity(velocity_, gradient_, p, time_step, mixing);
-    const double step = std::min(time_step, options.maximum_displacement / largest_velocity);
-    add_scaled(q, step, velocity_);
+    const double largest_velocity = turn_velocity(velocity, gradient_, p, state_.time_step, state_.mixing);
+    const double step = std::min(state_.time_step, options.maximum_displacement / largest_velocity);
+    add_scaled(q, step, velocity);
     if (gradient(q, gradient_) != Evaluation::ok) {
-      add_scaled(q, -step, velocity_);
+      add_scaled(q, -step, velocity);
       stop();
       if (gradient(q, gradient_) != Evaluation::ok)
         throw NumericalError("FIRE: the forces cannot be computed where they could be a step earlier");

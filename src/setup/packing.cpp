@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "setup/energy_options.hpp"
 #include "suture/errors.hpp"
@@ -80,69 +81,102 @@ void check(const PackingParameters& packing) {
     throw InputError(fmt::format("packing.increment: {} is not positive", packing.increment));
 }
 
-/// A packing on its way: the wall is drawn in and the cells follow.
+/// The wall is drawn in and the cells follow.
 class Compression {
  public:
-  Compression(const Config& config, const Tissue& tissue, int attempt, const Progress& progress)
+  Compression(const Config& config, const Tissue& tissue, int attempt, const Progress& progress,
+              const StepWatch<CompressionState>& watch)
       : options_(config.packing),
         membrane_{.contact_distance = contact_distance(config), .range = config.contact.range},
         ode_options_(elastic_options(config, config.packing.adhesion)),
         progress_(progress),
+        watch_(watch),
         fire_(2 * static_cast<std::size_t>(tissue.vertex_count())) {
-    TissueState& state = packing_.state;
+    if (watch.resumed)
+      resume(*watch.resumed);
+    else
+      place(config, tissue, attempt);
+  }
+
+  Packing run() {
+    const double enough = options_.final_fraction - 0.02 * options_.increment;
+    constexpr int patience = 10;
+    const PackingReport& report = now_.packing.report;
+    while (true) {
+      minimise(now_.finishing ? options_.force_tolerance : options_.step_tolerance);
+      if (now_.finishing) return std::move(now_.packing);
+      if (report.compression_steps == 0) {
+        now_.progress_mark = report.fraction;
+      } else if (report.compression_steps % patience == 0) {
+        if (report.fraction < std::min(enough, now_.progress_mark + 0.1 * options_.increment)) refuse();
+        now_.progress_mark = report.fraction;
+      }
+      if (report.fraction < enough)
+        compress();
+      else
+        now_.finishing = true;
+    }
+  }
+
+ private:
+  void place(const Config& config, const Tissue& tissue, int attempt) {
+    TissueState& state = now_.packing.state;
     state.tissue = packing_tissue(tissue, options_);
     double covered = 0.0;
     for (int cell = 0; cell < tissue.cell_count(); ++cell)
       covered += rest_covered_area(tissue, cell, membrane_.half_width());
-    packing_.wall_radius = std::sqrt(covered / (pi * options_.initial_fraction));
-    state.values = random_polygons(config, tissue, membrane_.half_width(), packing_.wall_radius, attempt);
+    now_.packing.wall_radius = std::sqrt(covered / (pi * options_.initial_fraction));
+    state.values = random_polygons(config, tissue, membrane_.half_width(), now_.packing.wall_radius, attempt);
     state.values.insert(state.values.end(), tissue.initial_rest_lengths().begin(), tissue.initial_rest_lengths().end());
   }
 
-  Packing run() {
-    minimise(options_.step_tolerance);
-    const double enough = options_.final_fraction - 0.02 * options_.increment;
-    constexpr int patience = 10;
-    double progress_mark = packing_.report.fraction;
-    while (packing_.report.fraction < enough) {
-      compress();
-      minimise(options_.step_tolerance);
-      if (packing_.report.compression_steps % patience != 0) continue;
-      if (packing_.report.fraction < std::min(enough, progress_mark + 0.1 * options_.increment)) refuse();
-      progress_mark = packing_.report.fraction;
-    }
-    minimise(options_.force_tolerance);
-    return std::move(packing_);
+  void resume(CompressionState saved) {
+    if (saved.minimisation) fire_.restore(*std::move(saved.minimisation));
+    in_minimisation_ = saved.minimisation.has_value();
+    saved.minimisation.reset();
+    now_ = std::move(saved);
   }
 
- private:
+  CompressionState state_within_minimisation() const {
+    CompressionState state = now_;
+    state.minimisation = fire_.state();
+    return state;
+  }
+
   /// One step of the wall. The cells give way by shrinking and folding, so a step gains less than it asks for; the last
   /// ones ask for more by what the step before it lacked.
   void compress() {
-    PackingReport& report = packing_.report;
+    PackingReport& report = now_.packing.report;
     constexpr double least_response = 0.1;
-    if (report.compression_steps > 0) response_ = std::clamp((report.fraction - before_) / asked_, least_response, 1.0);
-    before_ = report.fraction;
-    asked_ = std::min(options_.increment, (options_.final_fraction - before_) / response_);
-    const double factor = std::sqrt(before_ / (before_ + asked_));
-    packing_.wall_radius *= factor;
-    draw_in(packing_.state, factor);
+    if (report.compression_steps > 0)
+      now_.response = std::clamp((report.fraction - now_.before) / now_.asked, least_response, 1.0);
+    now_.before = report.fraction;
+    now_.asked = std::min(options_.increment, (options_.final_fraction - now_.before) / now_.response);
+    const double factor = std::sqrt(now_.before / (now_.before + now_.asked));
+    now_.packing.wall_radius *= factor;
+    draw_in(now_.packing.state, factor);
     ++report.compression_steps;
   }
 
   void minimise(double force_tolerance) {
-    TissueState& state = packing_.state;
+    TissueState& state = now_.packing.state;
+    // A new list of contacts and a velocity of zero: nothing carries over from the minimisation before.
+    if (!std::exchange(in_minimisation_, false)) watch_.offer(SavePoint::natural, [this] { return now_; });
     const auto wall =
-        std::make_shared<Confinement>(0.0, 0.0, packing_.wall_radius, options_.wall_range * membrane_.contact_distance,
+        std::make_shared<Confinement>(0.0, 0.0, now_.packing.wall_radius, options_.wall_range * membrane_.contact_distance,
                                       options_.wall_energy, state.tissue.vertex_count());
     TissueOde ode(state.tissue, 0, ode_options_, {wall});
+    const auto between_steps = [this] {
+      if (watch_.is_due()) watch_.offer(SavePoint::between, [this] { return state_within_minimisation(); });
+    };
     const FireReport minimised =
         minimise_energy(fire_, ode, state,
-                        fire_options(state.tissue, ode_options_.contact, force_tolerance, options_.maximum_iterations));
-    PackingReport& report = packing_.report;
+                        fire_options(state.tissue, ode_options_.contact, force_tolerance, options_.maximum_iterations),
+                        between_steps);
+    PackingReport& report = now_.packing.report;
     report.iterations += minimised.iterations;
     report.largest_force = minimised.largest_force;
-    report.fraction = packing_fraction(state.tissue, state.view(), membrane_, packing_.wall_radius);
+    report.fraction = packing_fraction(state.tissue, state.view(), membrane_, now_.packing.wall_radius);
     if (!minimised.converged)
       throw NumericalError(fmt::format(
           "packing: at packing fraction {:.4f} the largest force is still {:.2g} after {} iterations of FIRE; raise "
@@ -159,25 +193,26 @@ class Compression {
     throw NumericalError(
         fmt::format("packing: the cells give way at packing fraction {:.4f} and cannot be compressed to "
                     "packing.final_fraction = {}; lower it or raise packing.area_stiffness",
-                    packing_.report.fraction, options_.final_fraction));
+                    now_.packing.report.fraction, options_.final_fraction));
   }
 
   const PackingParameters& options_;
   Membrane membrane_;
   TissueOdeOptions ode_options_;
   const Progress& progress_;
+  const StepWatch<CompressionState>& watch_;
   Fire fire_;
-  Packing packing_;
-  double before_ = 0.0, asked_ = 0.0;  ///< packing fraction before the last step, and the rise it asked for
-  double response_ = 1.0;              ///< what such a step gains of what it asks for
+  CompressionState now_;
+  bool in_minimisation_ = false;  ///< resumed within one
 };
 
 }  // namespace
 
-Packing make_packing(const Config& config, const Progress& progress, int attempt) {
+Packing make_packing(const Config& config, const Progress& progress, int attempt,
+                     const StepWatch<CompressionState>& watch) {
   check(config.packing);
   const Tissue tissue = make_tissue(config);
-  Packing packing = Compression(config, tissue, attempt, progress).run();
+  Packing packing = Compression(config, tissue, attempt, progress, watch).run();
   packing.state.tissue = tissue;
   return packing;
 }

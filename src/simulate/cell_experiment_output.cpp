@@ -39,10 +39,8 @@ void write_trajectory(const CellExperimentResult& result, const Config& config, 
   record_series(writer, result.samples);
   if (result.release_sample) writer.record({.time = result.samples[*result.release_sample].time, .kind = "release"});
   writer.write_summary(summarise(result, config));
-  if (result.failure)
-    writer.commit();  // stays marked as unfinished
-  else
-    writer.close();
+  writer.publish(/*complete=*/!result.failure);
+  writer.discard_journal();
 }
 
 // Evenly spread over the frames, first and last included; the interior one next to the release moves there.

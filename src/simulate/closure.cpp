@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/model_archive.hpp"
 #include "simulate/closure_events.hpp"
 #include "suture/errors.hpp"
 #include "suture/ode/tissue_ode.hpp"
@@ -19,6 +20,8 @@ namespace {
 class Closure {
  public:
   Closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good);
+  /// Goes on from `saved`; `state` is the one in it.
+  Closure(const Config& config, const TissueState& state, const std::string& saved, ClosureObserver& observer, TissueState& last_good);
   ClosureResult run();
 
  private:
@@ -29,6 +32,12 @@ class Closure {
   void take_samples(double until);
   void sample(double t);
   void publish_events();
+  void between_steps();
+  void save(SavePoint point);
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(state_, start_, initial_step_, sampled_wound_, event_wound_, events_, finished_, restarts_, samples_, instant_, at_instant_, last_area_);
+  }
   void guard_progress(double event_time);
   TissueState state_at(double t) const;
   Statistics statistics() const;
@@ -46,11 +55,14 @@ class Closure {
   std::vector<EventRecord> log_;
   std::size_t published_ = 0;
   std::int64_t restarts_ = 0;
+  Statistics finished_;        // of the integrators before the present one
+  double initial_step_ = 0.0;  // with which a resumed integrator starts
   long samples_ = 0;
   double instant_ = -1e300;
   int at_instant_ = 0;
   double last_area_ = 0.0;
   ClosureResult result_;
+  double next_checkpoint_ = 0.0;
   bool done_ = false;
 };
 
@@ -75,6 +87,20 @@ Closure::Closure(const Config& config, TissueState state, ClosureObserver& obser
   state_ = with_string(config, std::move(state), *event_wound_.wound(), membrane_.contact_distance);
 }
 
+Closure::Closure(const Config& config, const TissueState& state, const std::string& saved, ClosureObserver& observer, TissueState& last_good)
+    : config_(config),
+      observer_(observer),
+      state_(last_good),
+      membrane_(make_membrane(config.contact, state.tissue)),
+      sampled_wound_(membrane_),
+      event_wound_(membrane_),
+      events_(config, membrane_, state.time) {
+  ByteReader archive(saved);
+  fields(archive);
+  archive.expect_end();
+  end_ = start_ + config.run.end_time;
+}
+
 std::vector<std::shared_ptr<const EnergyTerm>> Closure::string_terms() const {
   if (state_.purse_string.empty()) return {};
   return {std::make_shared<PurseStringChain>(state_.tissue, state_.purse_string, config_.purse_string),
@@ -89,7 +115,9 @@ void Closure::start_integrator() {
   options.skin = config_.integrator.skin * state_.tissue.mean_initial_rest_length();
   options.threads = config_.integrator.threads;
   ode_ = std::make_unique<TissueOde>(state_.tissue, state_.purse_string.size(), options, string_terms(), state_.reference_rest_length);
-  integrator_ = make_integrator(*ode_, integrator_options(config_, state_.tissue.mean_initial_rest_length()), state_.time, state_.values);
+  IntegratorOptions method = integrator_options(config_, state_.tissue.mean_initial_rest_length());
+  method.initial_step = initial_step_;
+  integrator_ = make_integrator(*ode_, method, state_.time, state_.values);
 }
 
 /// For every component after an event the one before it whose past it carries on: a purse-string vertex that stays its
@@ -118,7 +146,8 @@ void Closure::resume(TissueState at_event) {
 }
 
 Statistics Closure::statistics() const {
-  Statistics total = integrator_->statistics();
+  Statistics total = finished_;
+  total += integrator_->statistics();
   total.restarts = restarts_;
   return total;
 }
@@ -149,9 +178,6 @@ void Closure::sample(double t) {
     result_.t_closed = since_start(t) - (1.0 - std::clamp(fraction, 0.0, 1.0)) * config_.output.interval;
     log_.push_back({start_ + *result_.t_closed, EventKind::closed, -1, -1});
     done_ = true;
-  } else if (observer_.stop()) {
-    result_.status = ClosureStatus::stopped;
-    done_ = true;
   }
   last_area_ = area;
   ++samples_;
@@ -165,6 +191,8 @@ void Closure::take_samples(double until) {
 
 void Closure::publish_events() {
   for (; published_ < log_.size(); ++published_) observer_.event(log_[published_]);
+  log_.clear();
+  published_ = 0;
 }
 
 /// A run must not repeat one instant for ever: the ring can change only so often before time moves on.
@@ -197,10 +225,50 @@ void Closure::step() {
   std::copy(integrator_->state().begin(), integrator_->state().end(), state_.values.begin());
 }
 
+/// A closure that goes on from what is saved starts its integrator afresh. At a configured time this one does too, so that
+/// both have the same future.
+void Closure::save(SavePoint point) {
+  const Statistics before = finished_;
+  const std::int64_t restarts = restarts_;
+  if (point != SavePoint::natural) {
+    constexpr double restart_step = 0.1;  // of the last step: order 1 needs shorter ones
+    initial_step_ = restart_step * integrator_->last_step();
+    finished_ += integrator_->statistics();
+    ++restarts_;
+  }
+  if (point == SavePoint::configured) start_integrator();
+  ByteWriter archive;
+  fields(archive);
+  observer_.checkpoint(archive.bytes(), state_.time, point);
+  if (point == SavePoint::between) finished_ = before, restarts_ = restarts;
+}
+
+void Closure::between_steps() {
+  const bool stop = observer_.stop();
+  const double interval = config_.checkpoint.interval, t = state_.time;
+  if (t >= next_checkpoint_) {
+    save(SavePoint::configured);
+    next_checkpoint_ = next_multiple(start_, interval, t);
+  } else if (stop || observer_.checkpoint_due()) {
+    save(SavePoint::between);
+  }
+  if (!stop) return;
+  result_.status = ClosureStatus::stopped;
+  result_.state = state_;
+  done_ = true;
+}
+
 ClosureResult Closure::run() {
   start_integrator();
-  sample(start_);
-  while (!done_ && integrator_->time() < end_) step();
+  if (samples_ == 0) {
+    sample(start_);
+    save(SavePoint::natural);
+  }
+  next_checkpoint_ = next_multiple(start_, config_.checkpoint.interval, state_.time);
+  while (!done_ && integrator_->time() < end_) {
+    step();
+    if (!done_ && integrator_->time() < end_) between_steps();
+  }
   publish_events();
   result_.statistics = statistics();
   result_.storms = events_.storms();
@@ -212,6 +280,13 @@ ClosureResult Closure::run() {
 
 ClosureResult run_closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good) {
   return Closure(config, std::move(state), observer, last_good).run();
+}
+
+ClosureResult resume_closure(const Config& config, const std::string& saved, ClosureObserver& observer, TissueState& last_good) {
+  TissueState state;
+  ByteReader archive(saved);
+  archive(state);  // its first field
+  return Closure(config, state, saved, observer, last_good).run();
 }
 
 }  // namespace suture

@@ -22,6 +22,10 @@ class StormGauge {
   bool on_grid(double t);
   void count(double t, int events);
   long storms() const { return storms_; }
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(window_start_, in_window_, in_last_window_, storms_, storming_);
+  }
 
  private:
   EventHandling handling_;
@@ -46,6 +50,11 @@ class ClosureEvents {
   /// Applies them to `state` (whose time and values are those of the event); true if anything changed.
   bool apply(const DueEvents& due, TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log);
   long storms() const { return gauge_.storms(); }
+  /// What the next events depend on, for checkpoints (byte_archive.hpp).
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(start_, gauge_, seen_exposed_, last_grid_);
+  }
 
  private:
   std::optional<DueEvents> locate(const Integrator& integrator, const TissueState& state);

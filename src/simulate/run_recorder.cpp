@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "suture/io/units.hpp"
 #include "suture/measure/cell_shape.hpp"
@@ -30,8 +31,14 @@ double fraction_of(const std::optional<Wound>& wound, double largest) {
 
 }  // namespace
 
-RunRecorder::RunRecorder(const RunRequest& request, TrajectoryWriter& writer)
-    : request_(request), writer_(writer), membrane_{*request.config.contact.distance, request.config.contact.range} {}
+RunRecorder::RunRecorder(const RunRequest& request, TrajectoryWriter& writer, Progress progress,
+                         std::function<bool()> checkpoint_due, Save save)
+    : request_(request),
+      writer_(writer),
+      progress_(std::move(progress)),
+      checkpoint_due_(std::move(checkpoint_due)),
+      save_(std::move(save)),
+      membrane_{*request.config.contact.distance, request.config.contact.range} {}
 
 WoundSample RunRecorder::measure(const ClosureSample& s) {
   const std::vector<CellShape> shapes = cell_shapes(s.state.tissue, s.state.view());
@@ -98,13 +105,32 @@ void RunRecorder::sample(const ClosureSample& s) {
   writer_.record({"steps", "1", "since the purse string started"}, t, static_cast<double>(s.statistics.steps));
   const bool frame_due = s.time + 1e-9 >= static_cast<double>(frames_) * request_.config.output.frame_interval;
   if (frame_due) write_frame(s);
-  Picture picture{s.state, s.wound ? s.wound->outline : Polygon{}, s.time, fraction_of(s.wound, largest_area_)};
-  if (frame_due || pictures_.size() < 2)
-    pictures_.push_back(std::move(picture));
-  else
-    pictures_.back() = std::move(picture);  // the latest sample stands in for the end until the next frame
-  if (frame_due) pictures_.push_back(pictures_.back());
+  latest_ = {s.state, s.wound ? s.wound->outline : Polygon{}, fraction_of(s.wound, largest_area_)};
+  writer_.record(samples_.back());
+  commit(frame_due);
   report(s);
+}
+
+/// Every sample is safe from a kill; every frame, now and then, from a power failure.
+void RunRecorder::commit(bool frame) {
+  writer_.commit();
+  const auto now = std::chrono::steady_clock::now();
+  if (!frame || std::chrono::duration<double>(now - synced_).count() < request_.config.checkpoint.sync_interval) return;
+  writer_.sync();
+  synced_ = now;
+}
+
+std::string RunRecorder::saved() {
+  ByteWriter archive;
+  exchange(archive);
+  return archive.take();
+}
+
+void RunRecorder::restore(const std::string& saved, std::vector<WoundSample> samples) {
+  ByteReader archive(saved);
+  exchange(archive);
+  archive.expect_end();
+  samples_ = std::move(samples);
 }
 
 void RunRecorder::event(const EventRecord& record) {
@@ -116,7 +142,7 @@ void RunRecorder::event(const EventRecord& record) {
 
 void RunRecorder::report(const ClosureSample& s) const {
   const double closed = 1.0 - fraction_of(s.wound, largest_area_), elapsed = s.time / request_.config.run.end_time;
-  report_progress(request_.progress, "closure", std::max(closed, elapsed),
+  report_progress(progress_, "closure", std::max(closed, elapsed),
                   fmt::format("t = {:.1f}, wound {:.3f} a0 ({:.0f} %), string {}, step {:.2g}, {} rates", s.time,
                               s.wound ? s.wound->area : 0.0, 100.0 * (1.0 - closed), s.state.purse_string.size(), s.last_step,
                               s.statistics.rate_evaluations));
@@ -149,31 +175,55 @@ FrameStyle RunRecorder::style(const Picture& picture) const {
   return style;
 }
 
+/// Wound area at the times of the frames, relative to the largest until then.
+std::vector<double> RunRecorder::fractions_at(const FrameReader& frames) const {
+  std::vector<double> fractions;
+  double largest = 0.0, fraction = 0.0;
+  auto sample = samples_.begin();
+  for (int i = 0; i < frames.count(); ++i) {
+    const double time = frames.time(i), until = time + 1e-9 * std::max(1.0, std::abs(time));
+    for (; sample != samples_.end() && start_ + sample->time <= until; ++sample) {
+      largest = std::max(largest, *sample->wound_area);
+      fraction = largest > 0.0 ? *sample->wound_area / largest : 0.0;
+    }
+    fractions.push_back(fraction);
+  }
+  return fractions;
+}
+
 /// output.pictures of them, spread evenly over the closing of the wound, the first and the last included.
-std::vector<const RunRecorder::Picture*> RunRecorder::chosen_pictures() const {
-  std::vector<const Picture*> chosen;
-  const int wanted = std::min<int>(request_.config.output.pictures, static_cast<int>(pictures_.size()));
-  if (wanted < 1) return chosen;
-  const double first = pictures_.front().fraction, last = pictures_.back().fraction;
+std::vector<RunRecorder::Picture> RunRecorder::chosen_pictures() const {
+  const FrameReader frames(request_.directory / "run.h5");
+  std::vector<double> fractions = fractions_at(frames);  // and of the latest sample
+  fractions.push_back(latest_.fraction);
+  std::vector<std::size_t> chosen;
+  const int wanted = std::min<int>(request_.config.output.pictures, static_cast<int>(fractions.size()));
   std::size_t next = 0;
   for (int k = 0; k + 1 < wanted; ++k) {
-    const double level = first + (last - first) * k / (wanted - 1);
-    while (next + 1 < pictures_.size() && pictures_[next].fraction > level) ++next;
-    if (chosen.empty() || chosen.back() != &pictures_[next]) chosen.push_back(&pictures_[next]);
+    const double level = fractions.front() + (fractions.back() - fractions.front()) * k / (wanted - 1);
+    while (next + 1 < fractions.size() && fractions[next] > level) ++next;
+    if (chosen.empty() || chosen.back() != next) chosen.push_back(next);
   }
-  if (chosen.empty() || chosen.back() != &pictures_.back()) chosen.push_back(&pictures_.back());
-  return chosen;
+  if (wanted > 0 && (chosen.empty() || chosen.back() != fractions.size() - 1)) chosen.push_back(fractions.size() - 1);
+  std::vector<Picture> pictures;
+  for (const std::size_t i : chosen) {
+    const int frame = static_cast<int>(i);
+    if (frame < frames.count())
+      pictures.push_back({frames.state(frame), frames.extras(frame).wound_outline, fractions[i]});
+    else
+      pictures.push_back(latest_);
+  }
+  return pictures;
 }
 
 void RunRecorder::draw() const {
-  if (pictures_.empty()) return;
-  const Picture& last = pictures_.back();
-  for (const char* name : {"final.png", "final.svg"}) render_frame(last.state, style(last), request_.directory / name);
-  const std::vector<const Picture*> chosen = chosen_pictures();
+  if (samples_.empty()) return;
+  for (const char* name : {"final.png", "final.svg"}) render_frame(latest_.state, style(latest_), request_.directory / name);
+  const std::vector<Picture> chosen = chosen_pictures();
   std::vector<StripPanel> panels;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    render_frame(chosen[k]->state, style(*chosen[k]), request_.directory / fmt::format("frame_{:02}.png", k));
-    panels.push_back({chosen[k]->state, style(*chosen[k])});
+    render_frame(chosen[k].state, style(chosen[k]), request_.directory / fmt::format("frame_{:02}.png", k));
+    panels.push_back({chosen[k].state, style(chosen[k])});
   }
   if (!panels.empty()) render_strip(panels, 420, request_.directory / "strip.png");
 }

@@ -26,6 +26,11 @@ class ContactGraph {
   void erase(CellPair pair);
   /// Number of connected components; component[i] labels cell i, 0, 1, ... by first appearance.
   int components(std::vector<int>& component) const;
+  /// For checkpoints (byte_archive.hpp).
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(cells_, pairs_);
+  }
 
  private:
   int cells_ = 0;
@@ -57,6 +62,11 @@ class ExchangeCounter {
   /// Returns the exchanges completed since the last call. The first graph is the reference.
   std::vector<Exchange> update(const ContactGraph& graph);
   long count() const { return count_; }
+  /// For checkpoints (byte_archive.hpp).
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(reference_, started_, count_);
+  }
 
  private:
   ContactGraph reference_;

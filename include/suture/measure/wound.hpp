@@ -29,6 +29,11 @@ struct Wound {
   double area_of_parts = 0.0;  ///< of all of them
 };
 
+template <class Archive>
+void exchange_fields(Archive& archive, Wound& w) {
+  archive(w.area, w.perimeter, w.outline, w.centre, w.boundary, w.parts, w.area_of_parts);
+}
+
 /// The wound among the loops of an evaluated boundary. Without `previous` it is the largest hole; with it, the hole
 /// that overlaps the previous outline most. Empty when there is no such hole.
 std::optional<Wound> find_wound(const FreeBoundary& boundary, const Wound* previous = nullptr);
@@ -55,6 +60,12 @@ class WoundTracker {
   WoundStatus status() const { return status_; }
   int splits() const { return splits_; }  ///< updates at which the wound had fallen into several parts
   const FreeBoundary& boundary() const { return boundary_; }
+
+  /// What the next update() depends on, for checkpoints (byte_archive.hpp).
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(wound_, status_, splits_);
+  }
 
  private:
   FreeBoundary boundary_;

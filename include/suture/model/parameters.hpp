@@ -195,6 +195,14 @@ struct OutputParameters {
   bool operator==(const OutputParameters&) const = default;
 };
 
+struct CheckpointParameters {
+  double interval = std::numeric_limits<double>::infinity();  ///< model time between configured checkpoints
+  double wall_interval = 600.0;  ///< seconds between the others
+  bool reproducible = false;     ///< only configured checkpoints, so that a resumed run has the bits of an uninterrupted one
+  double sync_interval = 5.0;    ///< seconds between flushes of the journal to the disk
+  bool operator==(const CheckpointParameters&) const = default;
+};
+
 struct UnitParameters {
   double rest_area_um2 = 25.0;             ///< a0
   double unsticking_force_nN = 1.0;        ///< f_adh
@@ -220,6 +228,7 @@ struct Config {
   RunParameters run;
   IntegratorParameters integrator;
   OutputParameters output;
+  CheckpointParameters checkpoint;
   UnitParameters units;
   bool operator==(const Config&) const = default;
 };

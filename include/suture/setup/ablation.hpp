@@ -23,6 +23,7 @@ struct Ablated {
 };
 
 /// Removes the wound.cells central cells; the others relax, overdamped and elastic, for wound.relaxation_time.
-Ablated ablate(const Config& config, const TissueState& annealed, const Progress& progress = {});
+Ablated ablate(const Config& config, const TissueState& annealed, const Progress& progress = {},
+               const StepWatch<RelaxationState>& watch = {});
 
 }  // namespace suture

@@ -10,6 +10,7 @@
 #include "suture/model/state.hpp"
 #include "suture/ode/tissue_ode.hpp"
 #include "suture/physics/term_sum.hpp"
+#include "suture/setup/step_watch.hpp"
 
 namespace suture {
 
@@ -25,19 +26,37 @@ struct EnergyReport {
   double largest_deviation = 0.0;  ///< from `initial`, over the samples
 };
 
+/// A constant-energy motion on its way.
+struct ConstantEnergyState {
+  TissueState state;
+  std::vector<double> velocities;
+  double start = 0.0;  ///< time at its beginning
+  std::int64_t steps_done = 0;
+  EnergyReport report;
+};
+
 /// Constant-energy motion of unit masses by velocity Verlet (Swope, Andersen, Berens & Wilson 1982), second order in
 /// the step; `duration` is covered in equal steps of at most `time_step`. Updates positions, velocities and time.
 /// energies: the terms `ode` is the gradient of; their sum is sampled about ten times on the way.
 /// Throws NumericalError when the forces cannot be computed.
 EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
-                                     std::vector<double>& velocities, double duration, double time_step);
+                                     std::vector<double>& velocities, double duration, double time_step,
+                                     const StepWatch<ConstantEnergyState>& watch = {});
 
 /// Told how far a motion is: fraction from 0 to 1, and one line for a person.
 using MotionProgress = std::function<void(double fraction, std::string_view text)>;
 
+/// An overdamped motion on its way.
+struct RelaxationState {
+  TissueState state;
+  double start = 0.0;         ///< time at its beginning
+  double initial_step = 0.0;  ///< with which the integrator starts afresh
+  Statistics statistics;      ///< of the integrators so far
+};
+
 /// Overdamped motion of elastic cells without plasticity for `duration`, always by cvode, to anneal.tolerance.
 /// Throws NumericalError when it fails.
 Statistics relax_overdamped(const Config& config, TissueState& state, double duration,
-                            const MotionProgress& progress = {});
+                            const MotionProgress& progress = {}, const StepWatch<RelaxationState>& watch = {});
 
 }  // namespace suture

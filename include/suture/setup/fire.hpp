@@ -36,15 +36,30 @@ struct FireReport {
   double largest_force = 0.0;
 };
 
+/// A minimisation between two iterations, besides q.
+struct FireState {
+  std::vector<double> velocity;
+  double time_step = 0.0, mixing = 0.0;
+  int downhill_steps = 0;
+  FireReport report;
+};
+
 /// Minimises U from q in place. Reuse one object: its buffers are allocated once, the loop allocates nothing.
 class Fire {
  public:
   explicit Fire(std::size_t size);
-  /// Throws NumericalError when the gradient is refused at the start. A refusal on the way counts as an uphill stop.
-  FireReport minimise(std::span<double> q, const GradientFunction& gradient, const FireOptions& options);
+  /// between_steps: called before every iteration. Throws NumericalError when the gradient is refused at the start. A
+  /// refusal on the way counts as an uphill stop.
+  FireReport minimise(std::span<double> q, const GradientFunction& gradient, const FireOptions& options,
+                      const std::function<void()>& between_steps = {});
+  /// Before an iteration: to be saved with q. restore() makes the next minimise() go on from there.
+  const FireState& state() const { return state_; }
+  void restore(FireState state);
 
  private:
-  std::vector<double> velocity_, gradient_;
+  FireState state_;
+  bool restored_ = false;
+  std::vector<double> gradient_;
 };
 
 }  // namespace suture

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "suture/setup/ablation.hpp"
@@ -32,17 +33,26 @@ struct Preparation {
   Acceptance acceptance;  ///< of `state`; stays empty after the packing stage
 };
 
+/// A preparation on its way.
+struct PreparationState {
+  Preparation so_far;  ///< `stage` and `state` are those of the last stage completed; meaningless while packing
+  /// Within packing, anneal or the relaxation after ablation; empty: at the end of so_far.stage.
+  std::variant<std::monostate, CompressionState, AnnealState, RelaxationState> step;
+};
+
 /// Called at the end of every stage of an attempt, before the tissue is judged.
 using StageEnd = std::function<void(Stage stage, const TissueState& state)>;
 
 /// Runs the stages up to run.last_stage, at most to ablation. A tissue that is refused (see Acceptance) is packed again
 /// from other random numbers of the same seed, packing.attempts times at most; the outcome depends on `config` only.
 /// Throws InputError or, when every attempt is refused or a stage fails, NumericalError.
-Preparation prepare_tissue(const Config& config, const Progress& progress = {}, const StageEnd& stage_end = {});
+Preparation prepare_tissue(const Config& config, const Progress& progress = {}, const StageEnd& stage_end = {},
+                           StepWatch<PreparationState> watch = {});
 
 /// Continues from the saved end of stage `completed` (packing, anneal or ablation). Throws NumericalError when the
 /// tissue is refused: it cannot be packed again.
 Preparation continue_preparation(const Config& config, Stage completed, TissueState state,
-                                 const Progress& progress = {}, const StageEnd& stage_end = {});
+                                 const Progress& progress = {}, const StageEnd& stage_end = {},
+                                 StepWatch<PreparationState> watch = {});
 
 }  // namespace suture

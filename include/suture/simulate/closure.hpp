@@ -15,6 +15,7 @@
 #include "suture/model/parameters.hpp"
 #include "suture/model/state.hpp"
 #include "suture/ode/purse_string_events.hpp"
+#include "suture/setup/step_watch.hpp"
 
 namespace suture {
 
@@ -34,8 +35,12 @@ class ClosureObserver {
   virtual ~ClosureObserver() = default;
   virtual void sample(const ClosureSample& sample) = 0;
   virtual void event(const EventRecord& record) = 0;
-  /// Asked after every sample; true ends the stage early.
+  /// Asked after every step; true ends the stage early.
   virtual bool stop() { return false; }
+  /// Asked after every step: save, although no configured checkpoint is due?
+  virtual bool checkpoint_due() { return false; }
+  /// saved: what resume_closure() goes on from; everything observed so far belongs to it.
+  virtual void checkpoint(const std::string& saved, double time, SavePoint point) { (void)saved, (void)time, (void)point; }
 };
 
 enum class ClosureStatus { closed, reached_end, stopped, opened };
@@ -52,5 +57,10 @@ struct ClosureResult {
 /// or until the wound is closed. state.time is kept as the simulation's clock. Throws NumericalError when there is no
 /// wound or the integration fails; `last_good` then holds the last consistent state.
 ClosureResult run_closure(const Config& config, TissueState state, ClosureObserver& observer, TissueState& last_good);
+
+/// Goes on from what ClosureObserver::checkpoint was given, under the same configuration. Throws FileError when `saved`
+/// makes no sense.
+ClosureResult resume_closure(const Config& config, const std::string& saved, ClosureObserver& observer,
+                             TissueState& last_good);
 
 }  // namespace suture
