@@ -13,7 +13,10 @@
 #include <system_error>
 
 #include "io/tissue_state_io.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/journal.hpp"
 #include "io/trajectory_file.hpp"
+#include "io/trajectory_hashes.hpp"
 #include "suture/errors.hpp"
 #include "suture/geometry/polygon.hpp"
 #include "suture/io/cell_csv.hpp"
@@ -70,14 +73,19 @@ FileReport check_trajectory(const std::filesystem::path& path) {
   Trajectory trajectory;
   try {
     trajectory = read_trajectory(path);
-  } catch (const InputError& error) {
+    for (const std::string& problem : hash_problems(open_trajectory(path).root(), trajectory)) report(out, problem);
+  } catch (const std::runtime_error& error) {
     report(out, error.what());
     return out;
   }
   out.content = fmt::format("trajectory: {} cells, {} frames, {} stages, {} observables, {} events",
                             trajectory.tissue.cell_count(), trajectory.frames.size(), trajectory.stages.size(),
                             trajectory.observables.size(), trajectory.events.size());
-  if (!trajectory.complete) report(out, "the run did not finish: the file ends at the last commit before it stopped");
+  if (!trajectory.complete && !is_journal(path))
+    report(out, "the run did not finish: the file ends at the last commit before it stopped");
+  for (const Continuation& continuation : trajectory.continuations)
+    out.content += fmt::format("; resumed at t = {:.6g} ({})", continuation.time,
+                               continuation.reproducible ? "bit-identical" : "equal to the tolerances");
   for (const auto& [stage, state] : trajectory.stages) check_state(out, "stage " + stage_name(stage), state);
   for (std::size_t i = 0; i < trajectory.frames.size(); ++i) {
     const std::string where = fmt::format("frame {}", i);
@@ -89,6 +97,30 @@ FileReport check_trajectory(const std::filesystem::path& path) {
   }
   for (const Series& series : trajectory.observables)
     check_series(out, "observable " + series.quantity.name, series.time, series.value);
+  return out;
+}
+
+/// Every block, then the trajectory they make.
+FileReport check_journal(const std::filesystem::path& path) {
+  FileReport out = check_trajectory(path);
+  out.content = "journal of an unfinished " + out.content;
+  JournalReader reader(path, OnDamage::skip);
+  long blocks = 0;
+  for (std::string block; reader.next(block);) ++blocks;
+  out.content += fmt::format("; {} blocks", blocks);
+  if (reader.damaged() > 0)
+    report(out, fmt::format("{} of {} bytes are an incomplete or damaged block, which does not count", reader.damaged(),
+                            reader.file_size()));
+  return out;
+}
+
+FileReport check_checkpoint(const std::filesystem::path& path) {
+  FileReport out{.content = "checkpoint"};
+  try {
+    out.content += fmt::format(": {} bytes", read_checkpoint(path).size());
+  } catch (const FileError& error) {
+    report(out, error.what());
+  }
   return out;
 }
 
@@ -145,6 +177,8 @@ FileReport check_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return unreadable("there is no such file");
   const std::string extension = path.extension().string();
+  if (path.filename() == "checkpoint" || path.filename() == "checkpoint.previous") return check_checkpoint(path);
+  if (is_journal(path)) return check_journal(path);
   if (extension != ".json" && extension != ".csv") return check_trajectory(path);
   std::ifstream stream(path, std::ios::binary);
   const std::string text(std::istreambuf_iterator<char>(stream), {});

@@ -19,9 +19,10 @@ struct FileReport {
   std::vector<std::string> problems;  ///< in words, worst first; empty when valid
 };
 
-/// Checks a trajectory (.h5), a summary (.json) or a wound table (.csv). A trajectory is valid when it carries the
-/// commit mark of a finished run, times increase, numbers are finite, sizes agree, and every cell of every frame and
-/// stage is a counter-clockwise polygon of positive area.
+/// Checks a trajectory (.h5), its journal, a checkpoint, a summary (.json) or a wound table (.csv). A trajectory is valid
+/// when it carries the commit mark of a finished run, its content has the recorded hashes, times increase, numbers are
+/// finite, sizes agree, and every cell of every frame and stage is a counter-clockwise polygon of positive area; a
+/// journal need not be finished, but every block of it must be whole.
 FileReport check_file(const std::filesystem::path& path);
 
 }  // namespace suture
