@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <system_error>
+#include <vector>
+
 #include "io/posix_file.hpp"
 
 namespace suture {
@@ -33,6 +36,14 @@ void publish_temporary(const std::filesystem::path& temporary, const std::filesy
     throw;
   }
   sync_folder_of(path);
+}
+
+void remove_partial_files(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  std::vector<std::filesystem::path> partial;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, ignored))
+    if (entry.path().extension() == ".partial") partial.push_back(entry.path());
+  for (const auto& path : partial) std::filesystem::remove(path, ignored);
 }
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -20,4 +20,7 @@ void write_temporary(const std::filesystem::path& temporary, std::span<const std
 /// rename, fsync of the directory. Throws FileError; when the rename fails, `temporary` is gone.
 void publish_temporary(const std::filesystem::path& temporary, const std::filesystem::path& path);
 
+/// Removes temporary files that killed processes have left in `directory`. Only for whoever alone writes there.
+void remove_partial_files(const std::filesystem::path& directory);
+
 }  // namespace suture

@@ -10,6 +10,9 @@
 namespace suture {
 namespace {
 
+// Closing a dataset writes what HDF5 has kept in its buffers; destructors cannot say that this failed.
+long failed_closings = 0;
+
 constexpr std::size_t memory_increment = std::size_t{1} << 20;
 
 // The innermost message of HDF5's own error stack, which says most.
@@ -97,7 +100,7 @@ Hdf5Handle& Hdf5Handle::operator=(Hdf5Handle&& other) noexcept {
 }
 
 Hdf5Handle::~Hdf5Handle() {
-  if (id_ >= 0) H5Idec_ref(id_);
+  if (id_ >= 0 && H5Idec_ref(id_) < 0) ++failed_closings;
 }
 
 Hdf5Group Hdf5Group::create_group(const std::string& name) const {
@@ -181,7 +184,10 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
 
 Hdf5Group Hdf5File::root() const { return Hdf5Group(own(H5Gopen2(handle_.id(), "/", H5P_DEFAULT), "the root group")); }
 
+Hdf5File::Hdf5File(Hdf5Handle handle) : handle_(std::move(handle)), failed_before_(failed_closings) {}
+
 void Hdf5File::finish() {
+  if (failed_closings != failed_before_) fail_hdf5("a write failed");
   check(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), "flushing");
   check(H5Fclose(handle_.release()), "closing");
 }

@@ -95,12 +95,14 @@ class Hdf5File {
   /// For reading.
   static Hdf5File open(const std::filesystem::path& path);
   Hdf5Group root() const;
-  /// Writes what is still in buffers and closes the file.
+  /// Writes what is still in buffers and closes the file. Throws also when data were lost on the way, in the closing of
+  /// a dataset.
   void finish();
 
  private:
-  explicit Hdf5File(Hdf5Handle handle) : handle_(std::move(handle)) {}
+  explicit Hdf5File(Hdf5Handle handle);
   Hdf5Handle handle_;
+  long failed_before_ = 0;  ///< closings that had failed when it was opened
 };
 
 }  // namespace suture

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "io/checkpoint_file.hpp"
+#include "io/journal.hpp"
 #include "simulate/wound_closure_run.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/run_status.hpp"
@@ -51,12 +51,22 @@ RunOutcome run_one_cell(const RunRequest& request) {
   return {summarise(result, request.config), result.failure.value_or("")};
 }
 
+/// More than the header: a run that was killed at once has nothing to lose.
+bool holds_results(const std::filesystem::path& journal) {
+  try {
+    JournalReader reader(journal, OnDamage::skip);
+    std::string block;
+    return reader.next(block) && reader.next(block);
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 DirectoryContent content_of(const std::filesystem::path& directory) {
   const auto holds = [&](const std::filesystem::path& path) { return std::filesystem::exists(path); };
-  if (holds(journal_path(directory / "run.h5")) || holds(checkpoint_path(directory)) || holds(previous_checkpoint_path(directory)))
-    return DirectoryContent::unfinished;
+  if (holds(journal_path(directory / "run.h5"))) return DirectoryContent::unfinished;  // it is removed last
   return holds(directory / "run.h5") ? DirectoryContent::finished : DirectoryContent::nothing;
 }
 
@@ -65,10 +75,10 @@ RunOutcome run_protocol(const RunRequest& original) {
   RunRequest request = original;
   request.config = with_contact_distance(request.config);
   std::vector<std::string> problems;
-  if (request.resume)
+  if (request.resume && content_of(request.directory) == DirectoryContent::unfinished)
     if (std::optional<Resumption> resumption = find_resumption(request, problems))
       return WoundClosureRun(request, *std::move(resumption)).run();
-  if (!problems.empty())
+  if (!problems.empty() && holds_results(journal_path(request.directory / "run.h5")))
     throw InputError(fmt::format("{}: no checkpoint can be used: {}; 'suture recover {}' saves what was computed",
                                  request.directory.string(), fmt::join(problems, "; "), request.directory.string()));
   SavedStage start = read_start(request.config);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "io/atomic_file.hpp"
 #include "io/checkpoint_file.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
@@ -70,11 +71,14 @@ WoundClosureRun::WoundClosureRun(const RunRequest& request, SavedStage start)
     : WoundClosureRun(request, TrajectoryWriter(request.directory / "run.h5", request.provenance)) {
   start_ = std::move(start);
   writer_.commit();  // from here on the folder is ours
+  remove_checkpoints(request.directory);
+  remove_partial_files(request.directory);
 }
 
 WoundClosureRun::WoundClosureRun(const RunRequest& request, Resumption resumption)
     : WoundClosureRun(request, std::move(resumption.writer)) {
   fresh_ = false;
+  remove_partial_files(request.directory);
   RunCheckpoint& checkpoint = resumption.checkpoint;
   outcome_.summary.wall_s = checkpoint.wall_s;
   outcome_.summary.solver = checkpoint.solver;
@@ -118,7 +122,6 @@ void WoundClosureRun::save(SavedProgress progress, double time, SavePoint point)
 
 /// Called once this run has something of its own.
 void WoundClosureRun::remove_old_outputs() const {
-  remove_checkpoints(request_.directory);
   std::error_code ignored;
   for (const char* name : {"run.h5", "summary.json", "wound.csv"}) std::filesystem::remove(request_.directory / name, ignored);
 }

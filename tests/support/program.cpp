@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -46,8 +48,39 @@ Outcome run_suture(const std::string& program, const std::vector<std::string>& a
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(output), contents_of(errors)};
 }
 
-TemporaryDirectory::TemporaryDirectory() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "suture-test-XXXXXX").string();
+RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
+                               const std::filesystem::path& directory, const std::vector<std::string>& environment) {
+  process_ = fork();
+  if (process_ < 0) throw std::runtime_error("fork failed");
+  if (process_ != 0) return;
+  for (const std::string& variable : environment) putenv(const_cast<char*>(variable.c_str()));
+  become_program(program.c_str(), arguments, directory, directory / "stdout", directory / "stderr");
+}
+
+RunningProgram::~RunningProgram() {
+  if (process_ < 0) return;
+  ::kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
+}
+
+void RunningProgram::send(int signal) const { ::kill(process_, signal); }
+
+int RunningProgram::wait() {
+  int status = 0;
+  if (waitpid(process_, &status, 0) != process_) throw std::runtime_error("waitpid failed");
+  process_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+TemporaryDirectory::TemporaryDirectory() : TemporaryDirectory(std::filesystem::temp_directory_path()) {}
+
+TemporaryDirectory TemporaryDirectory::in_memory() {
+  const bool offered = std::filesystem::is_directory("/dev/shm") && access("/dev/shm", W_OK) == 0;
+  return TemporaryDirectory(offered ? "/dev/shm" : std::filesystem::temp_directory_path());
+}
+
+TemporaryDirectory::TemporaryDirectory(const std::filesystem::path& parent) {
+  std::string pattern = (parent / "suture-test-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary directory");
   path_ = pattern;
 }

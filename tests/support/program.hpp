@@ -17,10 +17,29 @@ struct Outcome {
 Outcome run_suture(const std::string& program, const std::vector<std::string>& arguments,
                    const std::filesystem::path& directory);
 
+/// A program that is running; killed at the end of its life.
+class RunningProgram {
+ public:
+  /// As run_suture; what it says goes into `directory`/stdout and stderr. environment: "NAME=value", added.
+  RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
+                 const std::filesystem::path& directory, const std::vector<std::string>& environment = {});
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+  ~RunningProgram();
+  void send(int signal) const;
+  /// Waits for the end. Exit code, or -signal.
+  int wait();
+
+ private:
+  int process_ = -1;
+};
+
 /// A fresh directory, removed with everything in it at the end.
 class TemporaryDirectory {
  public:
   TemporaryDirectory();
+  /// In memory, where flushing costs nothing, if the system offers that: for tests that flush thousands of times.
+  static TemporaryDirectory in_memory();
   ~TemporaryDirectory();
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
@@ -31,6 +50,7 @@ class TemporaryDirectory {
   std::vector<std::string> contents() const;
 
  private:
+  explicit TemporaryDirectory(const std::filesystem::path& parent);
   std::filesystem::path path_;
 };
 

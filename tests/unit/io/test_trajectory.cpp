@@ -154,7 +154,7 @@ TEST_CASE("a trajectory carries its provenance", "[unit]") {
   CHECK(!trajectory.code_commit.empty());
 }
 
-TEST_CASE("a committed file is whole and says that it is unfinished", "[unit]") {
+TEST_CASE("what was committed is readable from the journal, what was not is lost", "[unit]") {
   const TemporaryDirectory folder;
   {
     TrajectoryWriter writer(folder.path() / "run.h5", sample_provenance());
@@ -166,14 +166,90 @@ TEST_CASE("a committed file is whole and says that it is unfinished", "[unit]") 
     writer.write_frame(later);
     writer.record(wound_area, 1.0, 2.0);
   }  // stopped without close(): what came after the commit is lost, what came before is not
-  const Trajectory trajectory = read_trajectory(folder.path() / "run.h5");
-  CHECK(!trajectory.complete);
-  CHECK(trajectory.frames.size() == 1);
-  const FileReport report = check_file(folder.path() / "run.h5");
+  for (const char* name : {"run.journal", "run.h5"}) {  // there is no run.h5: the journal stands in
+    const Trajectory trajectory = read_trajectory(folder.path() / name);
+    CHECK(!trajectory.complete);
+    CHECK(trajectory.frames.size() == 1);
+  }
+  const FileReport report = check_file(folder.path() / "run.journal");
+  CHECK(report.verdict == FileVerdict::valid);
+  CHECK_THAT(report.content, Contains("unfinished") && Contains("1 frames") && Contains("1 blocks"));
+  CHECK(folder.contents() == std::vector<std::string>{"run.journal"});
+}
+
+TEST_CASE("a published file says whether it is complete, and a writer goes on where another one was", "[unit]") {
+  const TemporaryDirectory folder;
+  const auto path = folder.path() / "run.h5";
+  TissueState state = sample_tissue();
+  std::uint64_t length = 0;
+  {
+    TrajectoryWriter writer(path, sample_provenance());
+    writer.write_frame(state);
+    writer.record(wound_area, 0.0, 3.0);
+    writer.commit();
+    length = writer.length();
+    writer.record(wound_area, 1.0, 99.0);  // after the checkpoint: to be forgotten
+    writer.publish(/*complete=*/false);
+  }
+  const FileReport report = check_file(path);
   CHECK(report.verdict == FileVerdict::invalid);
   REQUIRE(report.problems.size() == 1);
   CHECK_THAT(report.problems[0], Contains("did not finish"));
-  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  CHECK_THROWS_AS(TrajectoryWriter::resume(path, length + 1), FileError);
+  TrajectoryWriter writer = TrajectoryWriter::resume(path, length);
+  CHECK_THROWS_AS(writer.write_frame(state), FileError);  // it knows the last time
+  state.time += 1.0;
+  writer.write_frame(state);
+  writer.record(wound_area, 1.0, 2.0);
+  writer.record(Continuation{state.time - 1.0, true, utc_now()});
+  writer.close();
+  CHECK(folder.contents() == std::vector<std::string>{"run.h5"});
+  const Trajectory trajectory = read_trajectory(path);
+  CHECK(trajectory.complete);
+  CHECK(trajectory.frames.size() == 2);
+  CHECK(trajectory.observable("wound_area")->value == std::vector<double>{3.0, 2.0});
+  REQUIRE(trajectory.continuations.size() == 1);
+  CHECK(trajectory.continuations[0].reproducible);
+  CHECK(check_file(path).verdict == FileVerdict::valid);
+  const FrameReader frames(path);
+  REQUIRE(frames.count() == 2);
+  CHECK(frames.time(1) == state.time);
+  check_same_state(frames.state(1), state);
+}
+
+TEST_CASE("a stage that is written again replaces itself and what came after it", "[unit]") {
+  const TemporaryDirectory folder;
+  TrajectoryWriter writer(folder.path() / "run.h5", sample_provenance());
+  TissueState state = sample_tissue();
+  writer.write_stage(Stage::packing, state);
+  writer.write_stage(Stage::anneal, state);
+  writer.commit();
+  state.time = 77.0;
+  writer.write_stage(Stage::packing, state);
+  writer.close();
+  const Trajectory trajectory = read_trajectory(folder.path() / "run.h5");
+  REQUIRE(trajectory.stages.size() == 1);
+  CHECK(trajectory.stages.at(Stage::packing).time == 77.0);
+}
+
+TEST_CASE("content that differs from its recorded hash is found by check", "[unit]") {
+  const TemporaryDirectory folder;
+  write_sample(folder.path() / "run.h5");
+  const std::string bytes = read_bytes(folder.path() / "run.h5");
+  // One bit in the last digit of a number of: a frame, a series, the events.
+  const double frame = sample_tissue().values[3], series = std::exp(-0.001 * 2000), event = 33.6;
+  for (const double value : {frame, series, event}) {
+    const std::string pattern(reinterpret_cast<const char*>(&value), sizeof value);
+    const std::size_t position = bytes.rfind(pattern);
+    REQUIRE(position != std::string::npos);
+    std::string damaged = bytes;
+    damaged[position] = static_cast<char>(damaged[position] ^ 1);
+    write_bytes(folder.path() / "damaged.h5", damaged);
+    const FileReport report = check_file(folder.path() / "damaged.h5");
+    CHECK(report.verdict == FileVerdict::invalid);
+    REQUIRE(!report.problems.empty());
+    CHECK_THAT(report.problems[0], Contains("does not have the recorded hash"));
+  }
 }
 
 TEST_CASE("a writer refuses frames that do not belong together", "[unit]") {
@@ -194,7 +270,7 @@ TEST_CASE("a writer refuses frames that do not belong together", "[unit]") {
 TEST_CASE("a folder that does not exist is reported by name and leaves nothing behind", "[unit]") {
   const TemporaryDirectory folder;
   TrajectoryWriter writer(folder.path() / "missing" / "run.h5", sample_provenance());
-  CHECK_THROWS_WITH(writer.close(), Contains("missing/run.h5") && Contains("No such file"));
+  CHECK_THROWS_WITH(writer.close(), Contains("missing/run.journal") && Contains("No such file"));
   std::filesystem::create_directory(folder.path() / "missing");
   writer.close();  // the failure cost nothing: the trajectory is still in memory
   CHECK(read_trajectory(folder.path() / "missing" / "run.h5").complete);

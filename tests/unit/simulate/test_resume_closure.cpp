@@ -1,0 +1,145 @@
+// A closure that goes on from a configured checkpoint has the bits of one that never stopped.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "io/model_archive.hpp"
+#include "support/setup_tissues.hpp"
+#include "suture/errors.hpp"
+#include "suture/setup/protocol.hpp"
+#include "suture/simulate/closure.hpp"
+
+using namespace suture;
+using namespace suture::test;
+
+namespace {
+
+/// Everything that can be seen of a closure, as bytes, and what it offered to be saved.
+class Witness final : public ClosureObserver {
+ public:
+  void sample(const ClosureSample& s) override {
+    seen.push_back(to_bytes(s.state) + to_bytes(s.statistics));
+    ++samples;
+  }
+  void event(const EventRecord& e) override {
+    ByteWriter bytes;
+    bytes(e.time, e.kind, e.cell, e.vertex);
+    seen.push_back(bytes.take());
+    ++events;
+  }
+  bool checkpoint_due() override { return due_every > 0 && ++steps % due_every == 0; }
+  bool stop() override { return stop_after > 0 && samples >= stop_after; }
+  void checkpoint(const std::string& bytes, double time, SavePoint point) override {
+    saved.push_back({bytes, time, point, seen.size(), events});
+  }
+
+  struct Saved {
+    std::string bytes;
+    double time;
+    SavePoint point;
+    std::size_t seen;
+    int events;
+  };
+  std::vector<std::string> seen;
+  std::vector<Saved> saved;
+  int events = 0, samples = 0, steps = 0, due_every = 0, stop_after = 0;
+};
+
+Config closing_config(Method method) {
+  Config config = with_contact_distance(small_config());
+  config.run.end_time = 6.0;
+  config.run.closed_area = 1e-3;
+  config.plasticity.tau = 3.0;
+  config.checkpoint.interval = 0.2;
+  config.integrator.method = method;
+  return config;
+}
+
+const TissueState& wounded() {
+  static const TissueState state = [] {
+    Config config = small_config();
+    config.run.last_stage = Stage::ablation;
+    return prepare_tissue(config).state;
+  }();
+  return state;
+}
+
+TissueState with_materials_of(const Config& config, TissueState state) {
+  const Tissue configured = make_tissue(config);
+  state.tissue = state.tissue.with_materials(std::vector<CellMaterial>(state.tissue.cell_count(), configured.material(0)));
+  return state;
+}
+
+}  // namespace
+
+TEST_CASE("a closure resumed from a configured checkpoint repeats every bit, before and after events", "[unit][resume]") {
+  for (const Method method : {Method::cvode, Method::rkc2}) {
+    const Config config = closing_config(method);
+    Witness whole;
+    TissueState last_good;
+    const ClosureResult expected = run_closure(config, with_materials_of(config, wounded()), whole, last_good);
+    REQUIRE(whole.saved.size() >= 5);
+    REQUIRE(whole.events > 5);
+    int before_events = 0, after_events = 0;
+    for (const Witness::Saved& saved : whole.saved) {
+      CAPTURE(static_cast<int>(method), saved.time, saved.events);
+      Witness rest;
+      const ClosureResult result = resume_closure(config, saved.bytes, rest, last_good);
+      CHECK(std::equal(rest.seen.begin(), rest.seen.end(), whole.seen.begin() + static_cast<std::ptrdiff_t>(saved.seen),
+                       whole.seen.end()));
+      CHECK(to_bytes(result.state) == to_bytes(expected.state));
+      CHECK(to_bytes(result.statistics) == to_bytes(expected.statistics));
+      CHECK(result.t_closed == expected.t_closed);
+      CHECK(result.storms == expected.storms);
+      before_events += saved.events == 0;
+      after_events += saved.events > 0;
+    }
+    CHECK(before_events > 0);
+    CHECK(after_events > 2);
+  }
+}
+
+TEST_CASE("saving at other times leaves a closure as it is, and going on from there agrees to tolerance", "[unit][resume]") {
+  const Config config = closing_config(Method::cvode);
+  Witness undisturbed, watched;
+  watched.due_every = 7;
+  TissueState last_good;
+  run_closure(config, with_materials_of(config, wounded()), undisturbed, last_good);
+  const ClosureResult expected = run_closure(config, with_materials_of(config, wounded()), watched, last_good);
+  CHECK(watched.seen == undisturbed.seen);
+  int between = 0;
+  for (const Witness::Saved& saved : watched.saved) {
+    if (saved.point != SavePoint::between || ++between % 4 != 1) continue;
+    Witness rest;
+    const ClosureResult result = resume_closure(config, saved.bytes, rest, last_good);
+    CAPTURE(saved.time);
+    CHECK(result.status == expected.status);
+    CHECK(rest.samples == watched.samples - static_cast<int>(std::count_if(
+                              watched.seen.begin(), watched.seen.begin() + static_cast<std::ptrdiff_t>(saved.seen),
+                              [](const std::string& bytes) { return bytes.size() > 1000; })));
+    CHECK(result.statistics.steps == Approx(static_cast<double>(expected.statistics.steps)).epsilon(0.3));
+  }
+  CHECK(between >= 4);
+}
+
+TEST_CASE("a closure that is asked to stop has saved where it stopped", "[unit][resume]") {
+  const Config config = closing_config(Method::cvode);
+  Witness stopped;
+  stopped.stop_after = 4;
+  TissueState last_good;
+  const ClosureResult result = run_closure(config, with_materials_of(config, wounded()), stopped, last_good);
+  CHECK(result.status == ClosureStatus::stopped);
+  REQUIRE(!stopped.saved.empty());
+  CHECK(stopped.saved.back().time == result.state.time);
+}
+
+TEST_CASE("a saved closure that is damaged is refused", "[unit][resume]") {
+  const Config config = closing_config(Method::cvode);
+  Witness whole, rest;
+  TissueState last_good;
+  whole.stop_after = 3;
+  run_closure(config, with_materials_of(config, wounded()), whole, last_good);
+  const std::string bytes = whole.saved.back().bytes;
+  for (const std::size_t length : {std::size_t{0}, std::size_t{9}, bytes.size() / 2, bytes.size() - 1})
+    CHECK_THROWS_AS(resume_closure(config, bytes.substr(0, length), rest, last_good), FileError);
+  CHECK_THROWS_AS(resume_closure(config, bytes + "x", rest, last_good), FileError);
+}
