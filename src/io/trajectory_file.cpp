@@ -1,6 +1,5 @@
 #include "io/trajectory_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,8 +7,8 @@
 #include <limits>
 
 #include "io/atomic_file.hpp"
+#include "io/file_seal.hpp"
 #include "io/journal.hpp"
-#include "io/posix_file.hpp"
 #include "io/tissue_state_io.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/units.hpp"
@@ -50,6 +49,11 @@ Hdf5File in_memory(const std::filesystem::path& journal) {
   for (std::string block; reader.next(block);) trajectory.add(block);
   trajectory.mark(/*complete=*/false);
   return std::move(trajectory).release();
+}
+
+Hdf5File open_sealed(const std::filesystem::path& path) {
+  if (std::filesystem::is_regular_file(path)) expect_unbroken_seal(path);
+  return Hdf5File::open(path);
 }
 
 }  // namespace
@@ -219,7 +223,7 @@ void publish_trajectory(const std::filesystem::path& path, bool complete, Build 
     build(trajectory);
     trajectory.mark(complete);
     std::move(trajectory).release().finish();
-    PosixFile(temporary, O_RDWR).sync();
+    seal_file(temporary);
   } catch (const FileError& error) {
     ::unlink(temporary.c_str());
     throw FileError(fmt::format("{}: cannot write: {}", path.string(), error.what()));
@@ -275,7 +279,7 @@ Hdf5File open_trajectory(const std::filesystem::path& path) {
   const bool unpublished = !std::filesystem::exists(path) && is_journal(journal_path(path));
   Hdf5File file = unpublished        ? in_memory(journal_path(path))
                   : is_journal(path) ? in_memory(path)
-                                     : Hdf5File::open(path);
+                                     : open_sealed(path);
   const Hdf5Group root = file.root();
   if (!root.has_attribute("schema") || root.text_attribute("schema") != trajectory_schema)
     throw FileError("it is an HDF5 file, but not a suture trajectory (no schema attribute)");

@@ -50,6 +50,11 @@ void check_same_state(const TissueState& a, const TissueState& b) {
   CHECK(same_bits(first, second));
 }
 
+std::string without_seal(std::string bytes) {
+  bytes.resize(bytes.size() - 16);
+  return bytes;
+}
+
 Provenance sample_provenance() {
   return {.config_text = std::string(100000, '#') + "\n[tissue]\nseed = 7\n",  // longer than an attribute may be
           .resolved_config = "[tissue]\nseed = 7\ncells = 18\n",
@@ -235,7 +240,10 @@ TEST_CASE("a stage that is written again replaces itself and what came after it"
 TEST_CASE("content that differs from its recorded hash is found by check", "[unit]") {
   const TemporaryDirectory folder;
   write_sample(folder.path() / "run.h5");
-  const std::string bytes = read_bytes(folder.path() / "run.h5");
+  // Without the seal, as after a program that has changed the file.
+  const std::string bytes = without_seal(read_bytes(folder.path() / "run.h5"));
+  write_bytes(folder.path() / "damaged.h5", bytes);
+  CHECK(check_file(folder.path() / "damaged.h5").verdict == FileVerdict::valid);
   // One bit in the last digit of a number of: a frame, a series, the events.
   const double frame = sample_tissue().values[3], series = std::exp(-0.001 * 2000), event = 33.6;
   for (const double value : {frame, series, event}) {
@@ -289,7 +297,7 @@ TEST_CASE("files that are not trajectories are refused with the reason", "[unit]
   CHECK(check_file(folder.path() / "empty.h5").verdict == FileVerdict::unreadable);
 
   write_sample(folder.path() / "run.h5");
-  std::string bytes = read_bytes(folder.path() / "run.h5");
+  std::string bytes = without_seal(read_bytes(folder.path() / "run.h5"));
   write_bytes(folder.path() / "truncated.h5", bytes.substr(0, bytes.size() / 2));
   CHECK_THROWS_WITH(read_trajectory(folder.path() / "truncated.h5"),
                     Contains("truncated.h5") && Contains("truncated file"));
@@ -303,7 +311,7 @@ TEST_CASE("files that are not trajectories are refused with the reason", "[unit]
   CHECK(check_file(folder.path() / "foreign.h5").verdict == FileVerdict::unreadable);
 }
 
-TEST_CASE("damage in single bytes is refused or harmless, never a crash", "[unit]") {
+TEST_CASE("a file with any byte changed is refused before HDF5 sees it", "[unit]") {
   const TemporaryDirectory folder;
   {
     TrajectoryWriter writer(folder.path() / "run.h5", sample_provenance());
@@ -311,20 +319,12 @@ TEST_CASE("damage in single bytes is refused or harmless, never a crash", "[unit
     writer.close();
   }
   const std::string bytes = read_bytes(folder.path() / "run.h5");
-  int refused = 0, accepted = 0;
-  for (std::size_t position = 0; position < bytes.size(); position += 997) {
+  for (std::size_t position = 0; position + 16 < bytes.size(); position += 997) {
     std::string damaged = bytes;
     damaged[position] = static_cast<char>(~damaged[position]);
     write_bytes(folder.path() / "damaged.h5", damaged);
-    try {
-      read_trajectory(folder.path() / "damaged.h5");
-      ++accepted;
-    } catch (const InputError&) {
-      ++refused;
-    }
+    CHECK_THROWS_WITH(read_trajectory(folder.path() / "damaged.h5"), Contains("its bytes are not those that were written"));
   }
-  CHECK(accepted > 0);
-  CHECK(refused > 0);
 }
 
 TEST_CASE("check accepts a good trajectory and names what is wrong with a bad one", "[unit]") {
