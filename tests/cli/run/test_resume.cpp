@@ -89,7 +89,7 @@ TEST_CASE("a run that is stopped as soon as it starts can be resumed until it is
   const Outcome changed =
       run_suture(SUTURE_PROGRAM, quick("out", {"--resume", "--set", "area.stiffness=17", "--set", "run.end_time=150"}), directory.path());
   CHECK(changed.exit_code == 2);
-  CHECK_THAT(changed.errors, Contains("area.stiffness was 16, is 17") && !Contains("end_time"));
+  CHECK_THAT(changed.errors, Contains("area.stiffness was 16.0, is 17.0") && !Contains("end_time"));
   REQUIRE(run_suture(SUTURE_PROGRAM, quick("out", {"--resume"}), directory.path()).exit_code == 0);
   for (const char* gone : {"run.journal", "checkpoint", "checkpoint.previous", "status.json"})
     CHECK(!std::filesystem::exists(directory.path() / "out" / gone));
@@ -127,7 +127,7 @@ TEST_CASE("a damaged checkpoint gives way to the previous one; without any, what
   const Outcome recovered = run_suture(SUTURE_PROGRAM, {"recover", "bad"}, directory.path());
   CHECK(recovered.exit_code == 0);
   CHECK_THAT(recovered.output, Contains("recovered"));
-  CHECK(read_trajectory(directory.path() / "bad/run.h5").stages.size() >= 3);
+  CHECK(!read_trajectory(directory.path() / "bad/run.h5").stages.empty());
 }
 
 TEST_CASE("wall times are read as people and Slurm write them", "[cli][resume]") {
