@@ -20,7 +20,7 @@ inline std::vector<std::string> busy_run(const std::string& out, bool resume) {
   std::vector<std::string> arguments{"run", std::string(SUTURE_SOURCE_DIR) + "/examples/small.toml", "--quiet", "--out", out};
   for (const char* key : {"checkpoint.interval=0.4", "checkpoint.reproducible=true", "checkpoint.wall_interval=0.02",
                           "checkpoint.sync_interval=0", "output.interval=0.1", "output.frame_interval=0.3",
-                          "output.pictures=2", "tissue.cells=7", "run.end_time=5", "wound.minimum_area=0"})
+                          "output.pictures=2", "tissue.cells=7", "run.end_time=4", "wound.minimum_area=0", "purse_string.yield_length=0.5"})
     arguments.insert(arguments.end(), {"--set", key});
   if (resume) arguments.push_back("--resume");
   return arguments;
