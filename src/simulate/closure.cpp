@@ -236,7 +236,10 @@ void Closure::save(SavePoint point) {
     finished_ += integrator_->statistics();
     ++restarts_;
   }
-  if (point == SavePoint::configured) start_integrator();
+  if (point == SavePoint::configured) {
+    integrator_.reset();  // before the system it refers to
+    start_integrator();
+  }
   ByteWriter archive;
   fields(archive);
   observer_.checkpoint(archive.bytes(), state_.time, point);
