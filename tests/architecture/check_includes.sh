@@ -36,7 +36,7 @@ only_in() { # PATTERN ALLOWED-PATH-PATTERN
   done
 }
 only_in '(cvode|sundials|nvector)' '^src/integrate/(cvode_integrator|fused_nvector)'
-only_in 'hdf5' '^src/io/hdf5_file\.cpp'
+only_in 'hdf5' '^src/io/hdf5_(calls|datasets|file)\.'
 only_in 'toml\+\+' '^src/io/config_document\.cpp'
 only_in 'cairo' '^src/render/'
 
