@@ -26,6 +26,7 @@ constexpr AddCommand commands[] = {
     add_check_command,
     add_config_command,
     add_forces_command,
+    add_render_command,
     add_run_command,
     add_validate_command,
 };
