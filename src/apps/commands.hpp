@@ -27,5 +27,6 @@ void add_forces_command(CLI::App& program, CommandResult& result);
 void add_render_command(CLI::App& program, CommandResult& result);
 void add_run_command(CLI::App& program, CommandResult& result);
 void add_validate_command(CLI::App& program, CommandResult& result);
+void add_view_command(CLI::App& program, CommandResult& result);
 
 }  // namespace suture

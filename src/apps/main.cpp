@@ -29,6 +29,7 @@ constexpr AddCommand commands[] = {
     add_render_command,
     add_run_command,
     add_validate_command,
+    add_view_command,
 };
 
 bool looks_like_override(const std::string& argument) {

@@ -7,34 +7,16 @@
 
 #include "suture/errors.hpp"
 #include "suture/render/movie.hpp"
+#include "suture/replay/colour_range.hpp"
 
 namespace suture {
 namespace {
-
-// Between these shares of all values of segments lies the colour bar: a few collapsed segments would else leave the
-// rest in one colour.
-constexpr double lowest_share = 0.01, highest_share = 0.99;
 
 const Field& drawable_field(const ReplayFrame& frame, const std::string& name) {
   const Field& field = frame.field(name);
   if (field.place != Place::cell && field.place != Place::segment)
     throw InputError(fmt::format("the field '{}' belongs to neither cells nor segments and cannot be drawn", name));
   return field;
-}
-
-double share(std::vector<double>& values, double fraction) {
-  const auto place = values.begin() + std::lround(fraction * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-// The range of the values, widened to round numbers.
-std::pair<double, double> colour_range(std::vector<double> values, Place place) {
-  const bool segments = place == Place::segment;
-  double low = share(values, segments ? lowest_share : 0.0), high = share(values, segments ? highest_share : 1.0);
-  if (!(high > low)) low -= 0.05, high = low + 0.1;
-  const double step = std::pow(10.0, std::floor(std::log10(0.5 * (high - low))));
-  return {step * std::floor(low / step * (1 + 1e-12)), step * std::ceil(high / step * (1 - 1e-12))};
 }
 
 struct Box {
@@ -59,11 +41,10 @@ RunPictures::RunPictures(const Replay& replay, PictureRequest request) : replay_
     const ReplayFrame frame = replay.frame(index);
     const Field& field = drawable_field(frame, request_.field);
     const std::vector<double> physical = in_physical_units(field, replay.scales());
-    std::copy_if(physical.begin(), physical.end(), std::back_inserter(values), [](double v) { return std::isfinite(v); });
+    values.insert(values.end(), physical.begin(), physical.end());
     place = field.place;
     box.include(frame.state);
   }
-  if (values.empty()) values = {0.0};
   const auto range = request_.range ? *request_.range : colour_range(std::move(values), place);
   minimum_ = range.first, maximum_ = range.second;
   if (!(minimum_ < maximum_)) throw InputError(fmt::format("the colour range {} to {} is empty", minimum_, maximum_));

@@ -29,7 +29,8 @@ Field make_field(Place place, std::string name, std::string unit, std::string de
 
 Values contact_counts(const TissueState& state, const Membrane& membrane) {
   Values counts(state.tissue.cell_count(), 0.0);
-  for (const auto& [a, b] : contact_graph(state.tissue, state.view(), membrane).pairs()) counts[a] += 1, counts[b] += 1;
+  const ContactGraph graph = contact_graph(state.tissue, state.view(), membrane);
+  for (const auto& [a, b] : graph.pairs()) counts[a] += 1, counts[b] += 1;
   return counts;
 }
 

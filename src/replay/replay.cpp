@@ -56,7 +56,9 @@ Replay::Replay(const std::filesystem::path& run)
       config_(parse_config(trajectory_.provenance.resolved_config, run.string() + ": provenance/resolved_config")),
       scales_(trajectory_.provenance.units),
       membrane_(make_membrane(config_.contact, trajectory_.tissue)),
-      times_(frame_times(trajectory_)) {}
+      times_(frame_times(trajectory_)) {
+  config_.contact.distance = membrane_.contact_distance;  // the terms expect it resolved
+}
 
 TissueState Replay::state(int index) const {
   return is_end_state(index) ? trajectory_.stages.at(Stage::closure) : trajectory_.state(index);

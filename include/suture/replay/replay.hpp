@@ -57,6 +57,7 @@ class Replay {
   /// Of the largest area of the run, at the sample nearest to `time`; empty when no wound was recorded.
   std::optional<double> wound_fraction(double time) const;
 
+  TissueState state(int index) const;
   /// Fields: of cells shape_parameter, area_strain, area, perimeter, contacts and whatever else is stored; of segments
   /// length, rest_length, rest_length_strain (l0/l0(0) - 1), membrane_tension (dU/dl); of vertices force_x, force_y and
   /// tether; with a purse string, of its vertices tether_length, tether_force, slipped and of its springs spring_length,
@@ -65,7 +66,6 @@ class Replay {
 
  private:
   bool is_end_state(int index) const { return index >= static_cast<int>(trajectory_.frames.size()); }
-  TissueState state(int index) const;
   std::vector<Point> outline_at_end(const TissueState& state) const;
 
   Trajectory trajectory_;
