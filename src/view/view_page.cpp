@@ -21,13 +21,15 @@ std::vector<int> spread(int count, int maximum) {
   return frames;
 }
 
+/// Every occurrence; what is put in is not searched again.
 void replace(std::string& text, std::string_view mark, const std::string& by) {
-  text.replace(text.find(mark), mark.size(), by);
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + by.size()))
+    text.replace(at, mark.size(), by);
 }
 
 // "</script>" inside a string would end the script element; JSON may write the slash as "\/".
 std::string inside_script(std::string json) {
-  for (std::size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3)) json.insert(at + 1, "\\");
+  for (std::size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at + 3)) json.insert(at + 1, 1, '\\');
   return json;
 }
 
@@ -48,11 +50,11 @@ ViewPage write_view_page(const Replay& replay, const ViewRequest& request, const
   ViewerData data = viewer_data(replay, frames);
   data.description["title"] = request.title;
   std::string page = page_html;
-  replace(page, "{{title}}", inside_html(request.title));
   replace(page, "{{style}}", page_style);
   replace(page, "{{script}}", page_script);
   replace(page, "{{description}}", inside_script(data.description.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
   replace(page, "{{numbers}}", data.numbers.base64());
+  replace(page, "{{title}}", inside_html(request.title));
   write_file_atomically(path, page);
   return {static_cast<int>(frames.size()), page.size()};
 }

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t curve_points = 1500;  // more than a plot has pixels
-constexpr double event_steps = 2000.0;      // of the time line; events closer than one look like one
+constexpr int event_parts = 500;            // of the time line; the events in one look like one
 
 double rounded(double value) {
   if (value == 0.0 || !std::isfinite(value)) return 0.0;
@@ -45,18 +45,21 @@ json curves(const Replay& replay) {
   return list;
 }
 
-// Per kind the number of events and the moments, which are thinned to what can be told apart.
+// Per kind how many there were in each part of the run that had any: {part: count}.
 json events(const Replay& replay) {
   const double duration = std::max(minutes(replay, replay.times().back()), 1e-9);
-  std::map<std::string, std::pair<int, std::set<double>>> kinds;
+  std::map<std::string, std::map<int, int>> kinds;
   for (const StoredEvent& event : replay.trajectory().events) {
-    auto& [count, moments] = kinds[event.kind];
-    ++count;
-    moments.insert(std::round(minutes(replay, event.time) / duration * event_steps) / event_steps);
+    const double share = std::clamp(minutes(replay, event.time) / duration, 0.0, 1.0);
+    ++kinds[event.kind][std::min(static_cast<int>(share * event_parts), event_parts - 1)];
   }
   json list = json::array();
-  for (const auto& [kind, entry] : kinds) list.push_back({{"kind", kind}, {"count", entry.first}, {"moments", entry.second}});
-  return list;
+  for (const auto& [kind, parts] : kinds) {
+    json where = json::array(), counts = json::array();
+    for (const auto& [part, count] : parts) where.push_back(part), counts.push_back(count);
+    list.push_back({{"kind", kind}, {"parts", where}, {"counts", counts}});
+  }
+  return {{"parts", event_parts}, {"kinds", list}};
 }
 
 json milestones(const json& summary) {

@@ -14,6 +14,7 @@ class App {
     this.fields = run.fields.filter(f => f.name !== 'area' && f.name !== 'perimeter');
     Object.assign(this, {time: 0, field: this.fields[0], selected: null, playing: false, speed: 3, loop: false,
                          dirty: true, drawn: 0});
+    readThemeColours();
     this.stage = new Stage($('stage'), run);
     this.timeline = new Timeline($('timeline'), run, time => this.seek(time));
     this.plots = run.curves.map(curve => this.addCurve(curve));
@@ -152,7 +153,7 @@ class App {
     $('model-time').textContent = `t = ${(this.time / this.run.time_unit_min).toFixed(1)}`;
     const area = this.plots.find((_, k) => this.run.curves[k].name === 'wound_area');
     if (area) {
-      const largest = Math.max(...area.values), share = area.valueAt(this.time) / (largest || 1);
+      const share = area.valueAt(this.time) / (this.largestWound ??= Math.max(...area.values) || 1);
       $('healing').innerHTML = `${(100 * share).toFixed(0)}\u2009%<small>of the wound open</small>`;
     }
     const um = [200, 100, 50, 20, 10, 5, 2, 1, 0.5, 0.2, 0.1].find(length => length * this.stage.scale <= 120) ?? 0.1;
@@ -173,6 +174,7 @@ class App {
 
   setTheme(theme) {
     document.documentElement.dataset.theme = theme;
+    readThemeColours();
     this.stage.readTheme();
     this.dirty = true;
   }

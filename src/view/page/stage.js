@@ -14,6 +14,7 @@ class Stage {
     this.context = canvas.getContext('2d');
     this.run = run;
     this.zoom = {factor: 1, x: 0, y: 0};
+    this.allCells = Array.from({length: run.cells}, (_, cell) => cell);
     this.tangentX = new Float32Array(run.vertices);
     this.tangentY = new Float32Array(run.vertices);
     this.readTheme();
@@ -101,7 +102,7 @@ class Stage {
     const c = this.context, run = this.run;
     run.place(frame);
     this.measureTangents();
-    this.paths = Array.from({length: run.cells}, (_, cell) => this.outline(cell));
+    this.paths = this.allCells.map(cell => this.outline(cell));
     c.setTransform(1, 0, 0, 1, 0, 0);
     c.clearRect(0, 0, this.canvas.width, this.canvas.height);
     // From here on coordinates are um, y upwards.
@@ -111,8 +112,9 @@ class Stage {
     const pixel = 1 / this.scale, width = run.membrane_um, edge = Math.max(0.22 * width, 1.1 * pixel);
     this.drawWound(frame);
     this.drawCells(frame, field, width, edge, pixel);
-    if (field.place === 'segment') this.drawSegments(frame, field, Math.max(width - edge, 2 * pixel));
-    if (selected !== null) this.outlineCell(selected, width, pixel);
+    const inner = Math.max(width - edge, 2 * pixel);
+    if (field.place === 'segment') this.drawSegments(frame, field, inner, this.allCells);
+    if (selected !== null) this.drawSelected(selected, frame, field, width, inner, pixel);
     this.drawRing(run.ring(frame), width, pixel);
   }
 
@@ -140,9 +142,9 @@ class Stage {
     });
   }
 
-  drawSegments(frame, field, width) {
+  drawSegments(frame, field, width, cells) {
     const c = this.context, {first_vertex, x, y} = this.run, buckets = new Map();
-    for (let cell = 0; cell < this.run.cells; ++cell) {
+    for (const cell of cells) {
       const first = first_vertex[cell], end = first_vertex[cell + 1];
       for (let v = first; v < end; ++v) {
         const index = this.shadeIndex(field, frame, v);
@@ -156,14 +158,19 @@ class Stage {
     for (const [index, path] of buckets) { c.strokeStyle = this.shades[index].body; c.stroke(path); }
   }
 
-  outlineCell(cell, width, pixel) {
-    const c = this.context;
-    c.strokeStyle = this.theme.card;
-    c.lineWidth = width + 5 * pixel;
-    c.stroke(this.paths[cell]);
+  // Once more, above its neighbours and with a rim.
+  drawSelected(cell, frame, field, width, inner, pixel) {
+    const c = this.context, path = this.paths[cell], of_cells = field.place === 'cell';
+    const shade = of_cells ? this.shades[this.shadeIndex(field, frame, cell)] : this.pale;
     c.strokeStyle = this.theme.ink;
+    c.lineWidth = width + 5 * pixel;
+    c.stroke(path);
+    c.fillStyle = shade.body;
+    c.fill(path);
+    c.strokeStyle = shade.membrane;
     c.lineWidth = width;
-    c.stroke(this.paths[cell]);
+    c.stroke(path);
+    if (!of_cells) this.drawSegments(frame, field, inner, [cell]);
   }
 
   drawRing(points, width, pixel) {

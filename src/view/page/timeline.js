@@ -1,49 +1,62 @@
 // The time line: milestones above, a track, one row of marks per kind of event below.
 
-// In this order; colours of Okabe and Ito (2008), which the colour-blind can tell apart.
+// In this order. A floor: a spring of the purse string has shrunk to its shortest. Colours after Okabe and Ito (2008), which the colour-blind can tell apart.
 const EVENT_KINDS = [
-  {kind: 'capture', colour: '#0072b2', text: 'capture'}, {kind: 'yield', colour: '#d55e00', text: 'yield'},
-  {kind: 'slip', colour: '#e69f00', text: 'slip'}, {kind: 'kink', colour: '#cc79a7', text: 'kink'},
-  {kind: 'exchange', colour: '#009e73', text: 'exchange'}];
+  {kind: 'capture', colour: '#2f86c8', text: 'captures'}, {kind: 'yield', colour: '#d55e00', text: 'yields'},
+  {kind: 'slip', colour: '#e69f00', text: 'slips'}, {kind: 'kink', colour: '#cc79a7', text: 'floors'},
+  {kind: 'exchange', colour: '#009e73', text: 'exchanges'}];
+
+const ROW = 13;  // pixels
 
 class Timeline {
   constructor(canvas, run, seek) {
     Object.assign(this, {canvas, run, left: 74, right: 12, track: 30});
-    this.rows = EVENT_KINDS.map(style => ({...style, ...run.events.find(e => e.kind === style.kind)}))
-                           .filter(row => row.count > 0);
+    this.rows = EVENT_KINDS.map(style => ({...style, ...run.events.kinds.find(e => e.kind === style.kind)}))
+                           .filter(row => row.counts);
+    canvas.parentElement.style.height = `${this.track + 18 + ROW * this.rows.length}px`;
     seekByPointer(canvas, px => this.run.duration * Math.min(1, Math.max(0,
       (px - this.left) / (canvas.clientWidth - this.left - this.right))), seek);
   }
 
-  draw(time) {
-    const {context: c, width} = fitCanvas(this.canvas), colours = themeColours();
-    const length = width - this.left - this.right, X = t => this.left + t / (this.run.duration || 1) * length;
+  X(time) { return this.left + time / (this.run.duration || 1) * (this.canvas.clientWidth - this.left - this.right); }
+
+  // All that does not depend on the time shown.
+  prepare(width, height) {
+    this.still = document.createElement('canvas');
+    const {context: c} = fitCanvas(this.still, width, height);
     c.font = FONT;
-    this.drawMilestones(c, X, colours);
+    this.drawMilestones(c);
     c.fillStyle = colours.line;
     c.beginPath();
-    c.roundRect(this.left, this.track - 3, length, 6, 3);
+    c.roundRect(this.left, this.track - 3, width - this.left - this.right, 6, 3);
     c.fill();
+    this.drawEvents(c, width - this.left - this.right);
+    this.prepared = `${width} ${height} ${colours.accent}`;
+  }
+
+  draw(time) {
+    const {context: c, width, height} = fitCanvas(this.canvas);
+    if (this.prepared !== `${width} ${height} ${colours.accent}`) this.prepare(width, height);
+    c.drawImage(this.still, 0, 0, width, height);
+    const x = this.X(time);
     c.fillStyle = colours.accent;
     c.beginPath();
-    c.roundRect(this.left, this.track - 3, Math.max(X(time) - this.left, 0.1), 6, 3);
+    c.roundRect(this.left, this.track - 3, Math.max(x - this.left, 0.1), 6, 3);
     c.fill();
-    this.drawEvents(c, length, colours);
-    c.fillStyle = colours.accent;
     c.strokeStyle = colours.card;
     c.lineWidth = 2.5;
     c.beginPath();
-    c.arc(X(time), this.track, 8, 0, FULL_TURN);
+    c.arc(x, this.track, 8, 0, FULL_TURN);
     c.fill();
     c.stroke();
   }
 
-  drawMilestones(c, X, colours) {
+  drawMilestones(c) {
     c.textAlign = 'center';
     c.textBaseline = 'alphabetic';
     let free = -Infinity;
     for (const {time, label} of this.run.milestones) {
-      const x = X(time), half = 0.5 * c.measureText(label).width;
+      const x = this.X(time), half = 0.5 * c.measureText(label).width;
       c.strokeStyle = colours.muted;
       c.lineWidth = 1;
       c.beginPath();
@@ -61,15 +74,18 @@ class Timeline {
     c.fillText('time', this.left - 12, this.track);
   }
 
-  drawEvents(c, length, colours) {
-    const height = Math.min(10, 30 / Math.max(this.rows.length, 1));
+  // The more events in a part of the run, the stronger its mark.
+  drawEvents(c, length) {
+    const part = length / this.run.events.parts;
     this.rows.forEach((row, k) => {
-      const y = this.track + 12 + k * height;
+      const y = this.track + 14 + k * ROW, most = Math.max(...row.counts);
       c.fillStyle = colours.muted;
-      c.fillText(row.text, this.left - 12, y + 0.5 * height - 0.5);
+      c.fillText(row.text, this.left - 12, y + 4.5);
       c.fillStyle = row.colour;
-      c.globalAlpha = 0.75;
-      for (const moment of row.moments) c.fillRect(this.left + moment * length - 0.5, y, 1.2, height - 2.5);
+      row.parts.forEach((at, i) => {
+        c.globalAlpha = 0.4 + 0.6 * Math.sqrt(row.counts[i] / most);
+        c.fillRect(this.left + at * part, y, Math.max(part, 1.5), 9);
+      });
       c.globalAlpha = 1;
     });
   }
