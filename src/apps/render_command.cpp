@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "suture/errors.hpp"
 #include "suture/render/run_pictures.hpp"
+#include "suture/replay/choose_frames.hpp"
 
 namespace suture {
 

@@ -88,15 +88,14 @@ std::vector<Point> Replay::outline_at_end(const TissueState& state) const {
   return wound ? wound->outline : std::vector<Point>{};
 }
 
+std::vector<Point> Replay::wound_outline(int index) const {
+  return is_end_state(index) ? outline_at_end(state(index)) : trajectory_.frames[index].extras.wound_outline;
+}
+
 ReplayFrame Replay::frame(int index) const {
-  ReplayFrame frame{.state = state(index), .wound_outline = {}, .fields = {}};
+  ReplayFrame frame{.state = state(index), .wound_outline = wound_outline(index), .fields = {}};
   std::vector<CellField> stored;
-  if (is_end_state(index)) {
-    frame.wound_outline = outline_at_end(frame.state);
-  } else {
-    frame.wound_outline = trajectory_.frames[index].extras.wound_outline;
-    stored = trajectory_.frames[index].extras.cell_fields;
-  }
+  if (!is_end_state(index)) stored = trajectory_.frames[index].extras.cell_fields;
   frame.fields = compute_fields(frame.state, config_, membrane_, stored);
   return frame;
 }

@@ -12,10 +12,6 @@
 
 namespace suture {
 
-/// Frames that a text chooses among `count`: "all", "last", single ones and ranges first:last[:step], last included,
-/// separated by commas; negative numbers count from the end. Ascending, each once. Throws InputError.
-std::vector<int> choose_frames(const std::string& text, int count);
-
 struct PictureRequest {
   std::string field = "shape_parameter";  ///< of cells or segments
   std::vector<int> frames;                ///< at least one

@@ -58,6 +58,8 @@ class Replay {
   std::optional<double> wound_fraction(double time) const;
 
   TissueState state(int index) const;
+  /// Counter-clockwise; empty when there is no wound.
+  std::vector<Point> wound_outline(int index) const;
   /// Fields: of cells shape_parameter, area_strain, area, perimeter, contacts and whatever else is stored; of segments
   /// length, rest_length, rest_length_strain (l0/l0(0) - 1), membrane_tension (dU/dl); of vertices force_x, force_y and
   /// tether; with a purse string, of its vertices tether_length, tether_force, slipped and of its springs spring_length,

@@ -1,10 +1,12 @@
+#include "suture/replay/choose_frames.hpp"
+
 #include <fmt/format.h>
 
 #include <charconv>
 #include <set>
+#include <string_view>
 
 #include "suture/errors.hpp"
-#include "suture/render/run_pictures.hpp"
 
 namespace suture {
 namespace {
