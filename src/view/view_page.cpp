@@ -47,8 +47,7 @@ std::string inside_html(const std::string& text) {
 
 ViewPage write_view_page(const Replay& replay, const ViewRequest& request, const std::filesystem::path& path) {
   const std::vector<int> frames = spread(replay.frame_count(), request.maximum_frames);
-  ViewerData data = viewer_data(replay, frames);
-  data.description["title"] = request.title;
+  const ViewerData data = viewer_data(replay, frames);
   std::string page = page_html;
   replace(page, "{{style}}", page_style);
   replace(page, "{{script}}", page_script);
