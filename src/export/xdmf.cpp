@@ -46,7 +46,7 @@ class GridText {
     group_.write("topology", numbers, {"1", "elements, as XDMF counts them"});
     if (mesh.kind == Mesh::Kind::lines)
       return fmt::format("<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"{0}\">\n{1}</Topology>\n",
-                         elements, reference("topology", fmt::format("{} 2", elements), "Int"));
+                         elements, reference("topology", std::to_string(numbers.size()), "Int"));
     return fmt::format("<Topology TopologyType=\"Mixed\" NumberOfElements=\"{}\">\n{}</Topology>\n", elements,
                        reference("topology", std::to_string(numbers.size()), "Int"));
   }
