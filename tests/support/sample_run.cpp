@@ -34,6 +34,7 @@ void write_sample_run(const std::filesystem::path& path, int frames) {
     const MutableStateView view = state.mutable_view();
     for (double& x : view.x) x *= 0.99;
     for (double& y : view.y) y *= 0.99;
+    for (double& l0 : view.rest_length) l0 *= 1.02;
   }
   writer.write_summary({.status = RunStatus::closed, .seed = 7, .t_50 = 12.0});
   writer.close();

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import urllib.request
 
 import websocket  # Debian: python3-websocket
 
@@ -17,7 +18,7 @@ def find_chromium():
 
 class Browser:
     def __init__(self, program, width=1440, height=860):
-        self.profile = tempfile.TemporaryDirectory(prefix="suture-chromium-")
+        self.profile = tempfile.TemporaryDirectory(prefix="suture-chromium-", ignore_cleanup_errors=True)
         # As root, as in a container, Chromium refuses its sandbox. The page is our own file.
         self.process = subprocess.Popen(
             [program, "--headless=new", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--mute-audio",
@@ -45,7 +46,6 @@ class Browser:
             if self.process.poll() is not None or time.monotonic() > deadline:
                 raise RuntimeError(f"Chromium did not start (exit code {self.process.poll()})")
             time.sleep(0.05)
-        import urllib.request
         port = open(port_file).readline().strip()
         while True:
             pages = json.load(urllib.request.urlopen(f"http://127.0.0.1:{port}/json"))
@@ -104,8 +104,13 @@ class Browser:
 
     def close(self):
         if self.socket:
+            try:
+                self.send("Browser.close")
+            except Exception:  # it may be gone before it answers
+                pass
             self.socket.close()
-        self.process.terminate()
+        else:
+            self.process.terminate()
         try:
             self.process.wait(20)
         except subprocess.TimeoutExpired:

@@ -130,7 +130,7 @@ class Plot {
     c.lineWidth = 1;
     c.textAlign = 'right';
     c.textBaseline = 'middle';
-    for (const tick of roundTicks(this.low, this.high, Math.max(3, height / 40))) {
+    for (const tick of roundTicks(this.low, this.high, Math.max(4, height / 36))) {
       c.beginPath();
       c.moveTo(this.left, Math.round(this.Y(tick)) + 0.5);
       c.lineTo(width - this.right, Math.round(this.Y(tick)) + 0.5);
@@ -140,7 +140,7 @@ class Plot {
     c.textAlign = 'center';
     c.textBaseline = 'alphabetic';
     const ticks = roundTicks(0, this.duration, 5);
-    for (const tick of ticks) if (this.X(tick) < width - 34) c.fillText(tickText(tick), this.X(tick), height - 3);
+    for (const tick of ticks) if (this.X(tick) < width - 40) c.fillText(tickText(tick), this.X(tick), height - 3);
     c.textAlign = 'right';
     c.fillText('min', width - this.right, height - 3);
   }
