@@ -55,7 +55,8 @@ class Timeline {
     c.textAlign = 'center';
     c.textBaseline = 'alphabetic';
     let free = -Infinity;
-    for (const {time, label} of this.run.milestones) {
+    const shown = this.run.milestones.filter(({time}) => time <= 1.001 * this.run.duration);
+    for (const {time, label} of shown) {
       const x = this.X(time), half = 0.5 * c.measureText(label).width;
       c.strokeStyle = colours.muted;
       c.lineWidth = 1;
