@@ -46,6 +46,10 @@ def check(series, source, what):
     expect(len(times) == frames, f"{what}: {len(times)} times instead of {frames}")
     expect(times == sorted(times) and times[0] == 0.0, f"{what}: times {times[:3]} ...")
     for time in times:
+        # Once the wound is closed there is none, and VTP says so with an empty frame.
+        closed = time == times[-1] and what.startswith("PVDReader") and series in ("purse_string", "wound")
+        if closed and merged(source, time).GetNumberOfPoints() == 0:
+            continue
         check_frame(series, merged(source, time), f"{what}, t = {time}")
     if series == "cells":
         first, last = (merged(source, time).GetPoint(0) for time in (times[0], times[-1]))
