@@ -25,6 +25,7 @@ void add_check_command(CLI::App& program, CommandResult& result);
 void add_config_command(CLI::App& program, CommandResult& result);
 void add_forces_command(CLI::App& program, CommandResult& result);
 void add_run_command(CLI::App& program, CommandResult& result);
+void add_sweep_command(CLI::App& program, CommandResult& result);
 void add_validate_command(CLI::App& program, CommandResult& result);
 
 }  // namespace suture

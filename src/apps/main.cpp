@@ -27,6 +27,7 @@ constexpr AddCommand commands[] = {
     add_config_command,
     add_forces_command,
     add_run_command,
+    add_sweep_command,
     add_validate_command,
 };
 
