@@ -84,13 +84,12 @@ std::string field(const std::optional<double>& value) { return value ? fmt::form
 std::string quoted(std::string text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   for (auto at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) text.insert(at, 1, '"');
-  return fmt::format("\"{}\"", text);  // GCC 12 warns wrongly about operator+
+  return fmt::format("\"{}\"", text);
 }
 
-std::string joined(const std::vector<std::string>& fields) {
-  std::string line;
-  for (const std::string& text : fields) line += (line.empty() ? "" : ",") + quoted(text);
-  return line + "\n";
+std::string joined(std::vector<std::string> fields) {
+  for (std::string& text : fields) text = quoted(std::move(text));
+  return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
 constexpr const char* wound_numbers[] = {"t_closed", "t_50", "t_25", "t_10", "t_05", "closure_rate", "closure_rate_um2_per_min",
