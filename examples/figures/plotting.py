@@ -39,8 +39,9 @@ def column(rows, name):
     return [row[name] for row in rows]
 
 
-def save(figure, picture):
-    figure.tight_layout()
+def save(figure, picture, tight=True):
+    if tight:
+        figure.tight_layout()
     picture.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(picture)
+    figure.savefig(picture, bbox_inches="tight")
     print(f"wrote {picture}")

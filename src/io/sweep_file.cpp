@@ -38,11 +38,12 @@ class SweepReader {
   }
 
   SweepFile read() {
-    require_known(root_, {"base", "seeds", "set", "grid", "list", "case", "derived"}, "");
+    require_known(root_, {"base", "seeds", "set", "grid", "list", "case", "derived", "preparation"}, "");
     SweepFile sweep;
     if (const toml::node* base = root_.get("base")) sweep.base = folder_ / text(*base, "base");
     if (const toml::node* seeds = root_.get("seeds")) sweep.seeds = read_seeds(*seeds);
     sweep.set = overrides(table_at(root_, "set"), "set");
+    sweep.preparation = overrides(table_at(root_, "preparation"), "preparation");
     for (const Leaf& leaf : leaves(table_at(root_, "grid"))) sweep.axes.push_back(axis({leaf}, "grid"));
     for (const toml::table* list : tables_at("list")) sweep.axes.push_back(axis(leaves(list), "list"));
     for (const toml::table* given : tables_at("case")) sweep.cases.push_back(read_case(*given));

@@ -37,6 +37,17 @@ struct NodeResult {
   std::vector<double> mean_shape;  ///< of the seeds that have one at that time; NaN where none has
   std::optional<ClosureSummary> closure;
 
+  /// Of the mean shape at the first sample with at most 5 % of the wound left: does not depend on where the runs end.
+  Moments shape_at_05() const {
+    std::vector<double> values;
+    for (const RunResult* result : valid)
+      if (const auto t_05 = result->number("t_05")) {
+        const std::vector<double>& times = result->wound.time;
+        const auto i = static_cast<std::size_t>(std::lower_bound(times.begin(), times.end(), *t_05) - times.begin());
+        if (i < times.size() && !std::isnan(result->wound.mean_shape[i])) values.push_back(result->wound.mean_shape[i]);
+      }
+    return moments(values);
+  }
   Moments of(const std::string& name) const {
     std::vector<double> values;
     for (const RunResult* result : valid)
@@ -143,7 +154,7 @@ std::vector<std::pair<const char*, std::string>> node_fields(const NodeResult& n
     if (of_mean.maximum_area > 0.0) end_fraction = node.mean.area.back() / of_mean.maximum_area;
   }
   const auto number = [](long value) { return fmt::format("{}", value); };
-  const Moments healed = node.of("healed_shape"), t_05 = node.of("t_05");
+  const Moments healed = node.of("healed_shape"), t_05 = node.of("t_05"), shape_at_05 = node.shape_at_05();
   return {{"healed_shape_mean", field(healed.mean)},
           {"healed_shape_sem", field(healed.standard_error)},
           {"closure_rate_of_mean", field(rate)},
@@ -154,6 +165,8 @@ std::vector<std::pair<const char*, std::string>> node_fields(const NodeResult& n
           {"runs_waiting", number(node.count([](const RunResult& r) { return !r.record; }))},
           {"t_05_sem", field(t_05.standard_error)},
           {"t_05_reached", number(node.count([](const RunResult& r) { return r.valid() && r.number("t_05"); }))},
+          {"shape_at_05_mean", field(shape_at_05.mean)},
+          {"shape_at_05_sem", field(shape_at_05.standard_error)},
           {"t_50_of_mean", field(of_mean.t_50)},
           {"t_25_of_mean", field(of_mean.t_25)},
           {"t_10_of_mean", field(of_mean.t_10)},

@@ -7,9 +7,11 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <sstream>
 
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
+#include "suture/sweep/preparation_cache.hpp"
 
 namespace suture {
 
@@ -99,13 +101,14 @@ class Planner {
     }
   }
 
-  Config resolve(const std::vector<ConfigOverride>& point, const SweepCase* row) const {
+  Config resolve(const std::vector<ConfigOverride>& point, const SweepCase* row, bool for_preparation) const {
     const std::filesystem::path& base = row != nullptr && !row->base.empty() ? row->base : file_.base;
     std::vector<ConfigOverride> all = file_.set;
     const auto add = [&all](const std::vector<ConfigOverride>& more) { all.insert(all.end(), more.begin(), more.end()); };
     if (row != nullptr) add(row->set);
     add(point);
     add(command_line_);
+    if (for_preparation) add(file_.preparation);
     Config config = resolve_config(base, all);
     if (file_.derived.empty()) return config;
     for (const DerivedKey& derived : file_.derived)
@@ -116,19 +119,27 @@ class Planner {
   }
 
   void add_node(const std::vector<ConfigOverride>& point, const SweepCase* row) {
-    const Config config = resolve(point, row);
+    const Config config = resolve(point, row, false);
+    std::optional<Config> preparation;
+    if (!file_.preparation.empty()) preparation = resolve(point, row, true);
     SweepNode node;
     for (const std::string& column : plan_.columns)
       node.values.push_back(column == "case" ? row->name : without_quotes(config_value(config, column)));
     const std::vector<std::uint64_t> seeds = seeds_.empty() ? std::vector{config.tissue.seed} : seeds_;
-    for (const std::uint64_t seed : seeds) add_run(config, seed);
+    for (const std::uint64_t seed : seeds) add_run(config, preparation, seed);
     plan_.nodes.push_back(std::move(node));
   }
 
-  void add_run(const Config& config, std::uint64_t seed) {
-    SweepRun run{static_cast<int>(plan_.runs.size()), static_cast<int>(plan_.nodes.size()), {}, config};
+  void add_run(const Config& config, const std::optional<Config>& preparation, std::uint64_t seed) {
+    SweepRun run{static_cast<int>(plan_.runs.size()), static_cast<int>(plan_.nodes.size()), {}, config, preparation};
     run.config.tissue.seed = seed;
-    run.key = text_hash(write_config(run.config));
+    if (run.preparation) {
+      run.preparation->tissue.seed = seed;
+      if (!can_share_preparation(run.config))
+        throw InputError(fmt::format("{}: key 'preparation': found a run that has no preparation of its own kind, allowed with wound "
+                                     "closures from the beginning without [[cell_type]]", file_.preparation.front().origin));
+    }
+    run.key = text_hash(run.text());
     if (const auto [same, is_new] = index_.emplace(run.key, run.index); !is_new)
       throw InputError(fmt::format("the runs {} and {} of the sweep have the same configuration, allowed one of them",
                                    same->second, run.index));
@@ -149,6 +160,15 @@ std::string text_hash(std::string_view text) {
   std::uint64_t hash = 14695981039346656037ULL;
   for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 1099511628211ULL;
   return fmt::format("{:016x}", hash);
+}
+
+std::string SweepRun::text() const {
+  std::string text = write_config(config);
+  if (!preparation) return text;
+  std::istringstream lines(write_config(preparation_config(*preparation)));
+  text += "\n# Prepared with:\n";
+  for (std::string line; std::getline(lines, line);) text += fmt::format("#{}{}\n", line.empty() ? "" : " ", line);
+  return text;
 }
 
 SweepPlan make_plan(const SweepFile& file, const PlanOptions& options) { return Planner(file, options).plan(); }

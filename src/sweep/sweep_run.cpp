@@ -40,7 +40,7 @@ void write_record(const SweepFolder& folder, const SweepRun& run, const RunRecor
 
 Provenance provenance_of(const SweepRun& run, const Config& config) {
   Provenance provenance;
-  provenance.config_text = write_config(run.config);
+  provenance.config_text = run.text();
   provenance.resolved_config = write_config(config);
   provenance.command_line = fmt::format("suture sweep, run {} ({})", run.index, run.key);
   provenance.start_time = utc_now();
@@ -56,7 +56,7 @@ Provenance provenance_of(const SweepRun& run, const Config& config) {
 RunOutcome simulate(const SweepFolder& folder, const SweepRun& run, const std::function<bool()>& stop) {
   Config config = run.config;
   if (can_share_preparation(config))
-    config.run.start_from = shared_preparation(config, folder.prepared(), folder.lease_s, stop).string();
+    config.run.start_from = shared_preparation(run.preparation.value_or(run.config), folder.prepared(), folder.lease_s, stop).string();
   return run_protocol({config, provenance_of(run, config), folder.run(run), {}, stop});
 }
 
@@ -71,7 +71,7 @@ const char* status_name(RunStatus status) {
 void start_afresh(const SweepFolder& folder, const SweepRun& run) {
   fs::remove_all(folder.run(run));
   fs::create_directories(folder.run(run));
-  write_file_atomically(folder.run(run) / "config.toml", write_config(run.config));
+  write_file_atomically(folder.run(run) / "config.toml", run.text());
 }
 
 }  // namespace
@@ -86,7 +86,7 @@ void SweepFolder::create() const {
 std::optional<RunRecord> finished_record(const SweepFolder& folder, const SweepRun& run) {
   const fs::path file = folder.run(run) / "done.json";
   if (!fs::exists(file)) return std::nullopt;
-  if (text_of(folder.run(run) / "config.toml") != write_config(run.config))
+  if (text_of(folder.run(run) / "config.toml") != run.text())
     throw FileError(fmt::format("{}: holds another configuration than run {} of the sweep", folder.run(run).string(), run.index));
   try {
     const nlohmann::json json = nlohmann::json::parse(text_of(file));

@@ -13,8 +13,9 @@ for axis, stage in zip(axes, ["before", "compressed", "released"]):
         these = select(outlines, cell=cell, stage=stage)
         x, y = column(these, "x"), column(these, "y")
         axis.plot(x + x[:1], y + y[:1], color=colour, label=cell, lw=2)
-    axis.set(xlim=(-0.85, 0.85), ylim=(-0.85, 0.85), aspect="equal", title=stage, xticks=[], yticks=[])
-axes[0].legend(loc="upper left")
+    axis.set(xlim=(-0.85, 0.85), ylim=(-0.85, 0.85), aspect="equal", title=stage)
+    axis.axis("off")
+axes[0].legend(loc="lower center", ncol=2)
 for cell, colour in [("elastic", "C0"), ("plastic", "C3")]:
     these = select(course, cell=cell)
     axes[3].plot(column(these, "time"), column(these, "shape_parameter"), color=colour,
@@ -23,5 +24,5 @@ for cell, colour in [("elastic", "C0"), ("plastic", "C3")]:
           f"{these[-1]['shape_parameter']:.3f} at the end")
 axes[3].axvline(100, color="0.7", lw=0.8)
 axes[3].set(xlabel="time", ylabel="shape parameter", title="released at t = T = 100")
-axes[3].legend(loc="upper left", bbox_to_anchor=(0.0, 0.9))
+axes[3].legend(loc="center", bbox_to_anchor=(0.32, 0.45))
 save(figure, picture)

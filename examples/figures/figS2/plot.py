@@ -33,5 +33,6 @@ for row, corner in enumerate(["convex", "concave"]):
     energy.set(xlabel="$x/s$", ylabel="energy / $\\epsilon$", title="energy along the path")
     force.set(xlabel="$x/s$", ylabel="|force| $s/\\epsilon$", title="force along the path")
     refinement.set(xlabel="spacing of the path's points / $s$", ylabel="largest step", title="steps (circles energy, squares force)")
-axes[0][1].legend()
+handles, labels = axes[0][1].get_legend_handles_labels()
+figure.legend(handles, labels, loc="upper center", ncol=3, bbox_to_anchor=(0.5, 1.04))
 save(figure, picture)

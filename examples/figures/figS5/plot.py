@@ -15,14 +15,14 @@ for k, ratio in enumerate(ratios):
         axis.plot(column(these, "k_a"), column(these, "relative"), "-", color=f"C{k}", label=f"$\\tau/T$ = {ratio:g}")
         axis.plot(column(these, "k_a"), column(these, "inertial"), "x", color=f"C{k}", ms=5)
         axis.plot(column(these, "k_a"), column(these, "published"), "o", mfc="none", color=f"C{k}", ms=5)
-axes[0].set(xscale="log", xlabel="$k_a$", ylabel="shape parameter at T", title="final shape", ylim=(1.0, 3.4))
-axes[1].set(xscale="log", xlabel="$k_a$", title="the same, enlarged", ylim=(1.02, 1.36))
-axes[0].legend(title="line: overdamped, x: unit mass,\no: published", fontsize=7)
+axes[0].set(xscale="log", xlabel="$k_a$", ylabel="shape parameter at T", ylim=(1.0, 3.4))
+axes[1].set(xscale="log", xlabel="$k_a$", ylim=(1.02, 1.36))
+axes[0].legend(title="line: overdamped, x: unit mass, o: published", fontsize=7, ncol=4, loc="upper left", bbox_to_anchor=(0.0, 1.35))
 for name, marker in [("relative", "o"), ("inertial", "x")]:
     axes[2].loglog(column(rows, "tau_over_T"), [abs(r[name] - r["published"]) for r in rows], marker, mfc="none",
                    label={"relative": "overdamped", "inertial": "unit mass"}[name])
 axes[2].axhline(0.02, color="0.6", lw=0.8)
-axes[2].set(xlabel="$\\tau/T$", ylabel="|ours - published|", title="difference of the final shape")
+axes[2].set(xlabel="$\\tau/T$", ylabel="|ours - published|", title="difference")
 axes[2].legend()
 save(figure, picture)
 slow = [r for r in rows if r["tau_over_T"] >= 0.02]

@@ -37,6 +37,7 @@ struct DerivedKey {
 struct SweepFile {
   std::filesystem::path base;  ///< configuration file; empty: the defaults
   std::vector<ConfigOverride> set;
+  std::vector<ConfigOverride> preparation;  ///< hold for the stages before the closure only
   std::vector<SweepCase> cases;
   std::vector<SweepAxis> axes;       ///< in the order of the file, [grid] before [[list]]
   std::vector<DerivedKey> derived;

@@ -13,8 +13,12 @@ namespace suture {
 struct SweepRun {
   int index = 0;     ///< counted through the sweep; seeds vary fastest, then the last axis
   int node = 0;
-  std::string key;   ///< hash of the resolved configuration, names its folder
+  std::string key;   ///< hash of the resolved configuration(s), names its folder
   Config config;
+  std::optional<Config> preparation;  ///< what the tissue is prepared with instead, if the sweep says so
+
+  /// All that the result depends on, as text.
+  std::string text() const;
 };
 
 /// One parameter point: its seeds are averaged over.

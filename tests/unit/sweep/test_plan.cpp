@@ -5,6 +5,7 @@
 
 #include "suture/errors.hpp"
 #include "support/program.hpp"
+#include "suture/sweep/preparation_cache.hpp"
 
 using namespace suture;
 using Catch::Matchers::Contains;
@@ -27,7 +28,7 @@ TEST_CASE("a grid is the product of its axes, the last varies fastest, and seeds
     seeds = [1, 2]
     [grid]
     area.stiffness = [1, 2]
-    "plasticity.tau" = [4.8, "inf", "100 s"]
+    "plasticity.tau" = [4.8, inf, "100 s"]
   )");
   REQUIRE(plan.columns == std::vector<std::string>{"area.stiffness", "plasticity.tau"});
   REQUIRE(plan.nodes.size() == 6);
@@ -88,7 +89,7 @@ TEST_CASE("a bad sweep is one message that says where and what is allowed", "[sw
       {"[grid]\narea.stifness = [1]", "did you mean 'area.stiffness'?"},
       {"[grid]\narea.stifness = [1]", "sweep.toml:2:"},
       {"[grid]\narea.stiffness = 1", "allowed an array of at least one value"},
-      {"[grid]\narea.stiffness = [1, -1]", "sweep.toml:2:1: key 'area.stiffness': found -1"},
+      {"[grid]\narea.stiffness = [1, -1]", "key 'area.stiffness': found -1"},
       {"[grid]\ntissue.seed = [1]", "allowed in 'seeds'"},
       {"[grid]\narea.stiffness = [1]\n[[list]]\narea.stiffness = [2]", "found it a second time"},
       {"[grid]\narea.stiffness = [1, 1]", "have the same configuration"},
@@ -105,6 +106,18 @@ TEST_CASE("a bad sweep is one message that says where and what is allowed", "[sw
   INFO(text);
   CHECK_THROWS_WITH(plan_of(text), Contains(expected));
   CHECK_THROWS_AS(plan_of(text), InputError);
+}
+
+TEST_CASE("keys of [preparation] change what runs start from and not what they are", "[sweep]") {
+  const std::string sweep = "[[list]]\nmembrane.law = [\"quadratic\", \"relative\"]\n";
+  const SweepPlan own = plan_of(sweep), shared = plan_of(sweep + "[preparation]\nmembrane.law = \"quadratic\"\n");
+  REQUIRE(shared.runs.size() == 2);
+  CHECK(shared.runs[1].config.membrane.law == SpringLaw::relative);
+  REQUIRE((shared.runs[0].preparation && shared.runs[1].preparation));
+  CHECK(write_config(preparation_config(*shared.runs[1].preparation)) == write_config(preparation_config(shared.runs[0].config)));
+  CHECK(write_config(preparation_config(own.runs[1].config)) != write_config(preparation_config(own.runs[0].config)));
+  CHECK(shared.runs[1].key != own.runs[1].key);
+  CHECK(parse_config(shared.runs[1].text(), "stored") == shared.runs[1].config);
 }
 
 TEST_CASE("an override of a swept key is refused", "[sweep]") {
