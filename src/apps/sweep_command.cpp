@@ -1,5 +1,6 @@
 // `suture sweep SWEEP.toml [--out DIR] [--jobs N] [--list] [--run-index K]`.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -11,6 +12,7 @@
 #include "progress_line.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/sweep_file.hpp"
+#include "suture/sweep/claim.hpp"
 #include "suture/sweep/collect.hpp"
 #include "suture/sweep/pool.hpp"
 
@@ -34,6 +36,12 @@ struct Options {
   bool resume = false, list = false, quiet = false;
 };
 
+std::string status_of(const SweepFolder& folder, const SweepRun& run) {
+  if (const auto record = finished_record(folder, run)) return record->status;
+  const bool started = std::filesystem::exists(folder.claims());
+  return started && Claim::held(folder.claims(), run.key, folder.lease_s) ? "running" : "waiting";
+}
+
 void list_runs(const SweepFolder& folder, const SweepPlan& plan) {
   std::string head = "index,run";
   for (const std::string& column : plan.columns) head += "," + column;
@@ -41,8 +49,7 @@ void list_runs(const SweepFolder& folder, const SweepPlan& plan) {
   for (const SweepRun& run : plan.runs) {
     std::string line = fmt::format("{},{}", run.index, run.key);
     for (const std::string& value : plan.nodes[run.node].values) line += "," + value;
-    const auto record = finished_record(folder, run);
-    std::cout << fmt::format("{},{},{}\n", line, run.config.tissue.seed, record ? record->status : "waiting");
+    std::cout << fmt::format("{},{},{}\n", line, run.config.tissue.seed, status_of(folder, run));
   }
 }
 
@@ -71,10 +78,11 @@ SweepEnd execute(const Options& options, const SweepFolder& folder, const SweepP
   SweepEnd end;
   const auto report = [&](const SweepProgress& progress) {
     end.progress = progress;
-    if (options.quiet) return;
+    // A log wants a line when something has ended, a terminal a living one.
+    if (options.quiet || (progress.last.empty() && isatty(STDERR_FILENO) == 0)) return;
     const int to_do = progress.total - progress.finished_before;
     const double fraction = to_do > 0 ? static_cast<double>(progress.finished - progress.finished_before) / to_do : 1.0;
-    line.update("sweep", fraction, fmt::format("{}{}{}", verdict(progress), progress.last.empty() ? "" : "; ", progress.last));
+    line.update("sweep", fraction, fmt::format("{}, {} running{}{}", verdict(progress), progress.running, progress.last.empty() ? "" : "; ", progress.last));
   };
   end.complete = execute_sweep(folder, plan, {.jobs = options.jobs, .progress = report, .stop = [] { return stop_requested != 0; }});
   return end;

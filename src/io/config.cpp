@@ -196,6 +196,7 @@ Config default_config(std::string_view preset) {
   config.purse_string.capture_law = CaptureLaw::slip;
   config.purse_string.event_handling = EventHandling::each_step;
   config.integrator.method = Method::euler;
+  config.output.adjacency = Adjacency::string;
   config.run.closed_area = 0.0264;  // 2 pi (l0(0)/2)^2 of 30 vertices and shape 1.2, model.md section 9
   return config;
 }

@@ -91,6 +91,8 @@ std::vector<ConfigKey<Config>> program_keys() {
                                                    "time between samples of the wound"),
       key<&C::output, &OutputParameters::frame_interval>("output", "frame_interval", time, positive,
                                                          "time between stored configurations"),
+      key<&C::output, &OutputParameters::adjacency>("output", "adjacency", pure_number, anything,
+                                                    "which cells the mean shape and the healed shape are taken of"),
       key<&C::output, &OutputParameters::pictures>("output", "pictures", pure_number, between(0, 1000),
                                                    "number of pictures drawn along the run"),
       key<&C::units, &UnitParameters::rest_area_um2>("units", "rest_area", area_unit, positive,

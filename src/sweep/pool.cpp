@@ -70,6 +70,7 @@ class Pool {
       if (stopping_ && children_.empty()) break;
       if (!stopping_) start_children();
       if (!reap()) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      if (Clock::now() - reported_ > std::chrono::seconds(1)) report("");
     }
     if (broken_) throw FileError("the sweep was ended because a run could not be carried out, see above");
     return !stopping_;
@@ -162,6 +163,7 @@ class Pool {
   }
 
   void report(std::string last) {
+    reported_ = Clock::now();
     progress_.running = running();
     progress_.last = std::move(last);
     if (options_.progress) options_.progress(progress_);
@@ -174,6 +176,7 @@ class Pool {
   std::map<pid_t, const SweepRun*> children_;
   std::map<int, int> kills_;
   SweepProgress progress_;
+  Clock::time_point reported_;
   bool stopping_ = false, broken_ = false;
 };
 

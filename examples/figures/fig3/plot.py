@@ -8,10 +8,10 @@ import numpy as np
 from plotting import arguments, plt, read, save
 
 KPA, MIN = 0.04, 16.6667 / 60  # B per k_a and time per unit at a0 = 25 um^2, which the published axes have everywhere
-TISSUES = {"embryo": (0.64, 9.6 * MIN), "wing disc": (2.0, 1228.8 * 13.3333 / 60)}  # B and tau with their own a0
+TISSUES = {"embryo": (16 * KPA, 9.6 * MIN, "red"), "wing disc": (32 * KPA, 1228.8 * MIN, "magenta")}
 SWEEPS = {"printed equations": "sweep", "emulation": "sweep_published_code"}
 QUANTITIES = [("healed_shape_mean", "healed shape", "fig3_shape.csv", 1.2, 1.9),
-              ("closure_rate_of_mean_um2_per_min", "closure rate (um$^2$/min), log10", "fig3_rate.csv", -1.0, 1.2)]
+              ("closure_rate_of_mean_um2_per_min", "closure rate (um$^2$/min), log10", "fig3_rate.csv", -0.8, 1.0)]
 
 
 def ours(results, sweep, quantity):
@@ -40,8 +40,8 @@ def draw(axis, nodes, quantity, low, high):
         picture = axis.scatter(np.log2(x), np.log10(y), c=z, cmap="viridis", vmin=low, vmax=high, ec="k", s=22)
     for b, tau in open_:
         axis.plot(math.log2(b), math.log10(tau), "kx", ms=6)
-    for name, (b, tau) in TISSUES.items():
-        axis.plot(math.log2(b), math.log10(tau), "s", mfc="none", mec="r" if name == "embryo" else "w", ms=10, mew=1.8)
+    for name, (b, tau, colour) in TISSUES.items():
+        axis.plot(math.log2(b), math.log10(tau), "s", mfc="none", mec=colour, ms=10, mew=1.8)
     ticks = [0.04, 0.08, 0.16, 0.32, 0.64, 1.28]
     axis.set(xticks=[math.log2(b) for b in ticks], xticklabels=[f"{b:g}" for b in ticks], xlabel="$B$ (kPa)")
     axis.set(yticks=range(0, 5), yticklabels=[f"$10^{n}$" for n in range(0, 5)], ylim=(0, 4.2), xlim=(-4.9, 1.2))

@@ -19,7 +19,7 @@ struct SweepProgress {
 
 struct PoolOptions {
   int jobs = 1;
-  std::function<void(const SweepProgress&)> progress;  ///< may be empty
+  std::function<void(const SweepProgress&)> progress;  ///< about once a second and when a run ends; may be empty
   std::function<bool()> stop;                          ///< asked several times a second; may be empty
 };
 

@@ -208,6 +208,20 @@ TEST_CASE("a failed run is reported with its reason and does not stop the others
     CHECK(row.at("runs_failed") == (row.at("wound.minimum_area") == "2.0" ? "1" : "0"));
 }
 
+TEST_CASE("one-cell experiments can be swept too", "[cli][sweep]") {
+  const TemporaryDirectory directory;
+  directory.write("sweep.toml", "base = \"" + std::string(SUTURE_SOURCE_DIR) + R"(/examples/dipole.toml"
+set = { dipole.duration = 50 }
+grid = { plasticity.tau = [1, 500] }
+)");
+  REQUIRE(sweep(directory, "out").exit_code == 0);
+  const Rows nodes = read_csv(directory.path() / "out/nodes.csv");
+  REQUIRE(nodes.size() == 2);
+  CHECK(std::stod(nodes[0].at("shape_final_mean")) > 1.1 * std::stod(nodes[1].at("shape_final_mean")));
+  CHECK(nodes[0].at("healed_shape_mean").empty());
+  CHECK(nodes[0].at("runs") == "1");
+}
+
 TEST_CASE("Ctrl-C stops a sweep with exit code 75 and leaves no claim", "[cli][sweep]") {
   const TemporaryDirectory directory;
   directory.write("sweep.toml", tiny);
