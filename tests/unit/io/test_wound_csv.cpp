@@ -89,7 +89,8 @@ TEST_CASE("the series of a wound.csv read back to the same bits, and a damaged f
   REQUIRE(columns.time.size() == samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
     CHECK(columns.time[i] == samples[i].time);
-    CHECK(columns.wound_area[i] == samples[i].wound_area.value_or(-1.0));
+    if (samples[i].wound_area) CHECK(columns.wound_area[i] == *samples[i].wound_area);
+    CHECK(std::isnan(columns.wound_area[i]) == !samples[i].wound_area.has_value());
     CHECK(std::isnan(columns.mean_shape[i]) == !samples[i].mean_shape.has_value());
   }
   CHECK(columns.mean_shape[0] == 1.0 / 3.0);
