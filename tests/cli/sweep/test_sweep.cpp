@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <map>
@@ -206,6 +207,22 @@ TEST_CASE("a failed run is reported with its reason and does not stop the others
   CHECK_THAT(read_bytes(directory.path() / "out/sweep.csv"), Contains("no acceptable tissue"));
   for (const auto& row : read_csv(directory.path() / "out/nodes.csv"))
     CHECK(row.at("runs_failed") == (row.at("wound.minimum_area") == "2.0" ? "1" : "0"));
+}
+
+TEST_CASE("every sweep of this repository can be planned", "[cli][sweep]") {
+  const TemporaryDirectory directory;
+  const std::map<std::string, int> runs{{"small_sweep.toml", 18},
+                                        {"closure_table/sweep.toml", 55},
+                                        {"figures/fig3/sweep.toml", 1575},
+                                        {"figures/fig3/sweep_published_code.toml", 189},
+                                        {"figures/fig4/sweep.toml", 125},
+                                        {"figures/fig4/sweep_published_code.toml", 25}};
+  for (const auto& [file, count] : runs) {
+    INFO(file);
+    const Outcome list = run_suture(SUTURE_PROGRAM, {"sweep", std::string(SUTURE_SOURCE_DIR) + "/examples/" + file, "--list"}, directory.path());
+    CHECK(list.exit_code == 0);
+    CHECK(std::count(list.output.begin(), list.output.end(), '\n') == count + 1);
+  }
 }
 
 TEST_CASE("one-cell experiments can be swept too", "[cli][sweep]") {
