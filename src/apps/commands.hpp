@@ -27,6 +27,7 @@ void add_export_command(CLI::App& program, CommandResult& result);
 void add_forces_command(CLI::App& program, CommandResult& result);
 void add_render_command(CLI::App& program, CommandResult& result);
 void add_run_command(CLI::App& program, CommandResult& result);
+void add_sweep_command(CLI::App& program, CommandResult& result);
 void add_validate_command(CLI::App& program, CommandResult& result);
 void add_view_command(CLI::App& program, CommandResult& result);
 

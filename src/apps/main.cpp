@@ -29,6 +29,7 @@ constexpr AddCommand commands[] = {
     add_forces_command,
     add_render_command,
     add_run_command,
+    add_sweep_command,
     add_validate_command,
     add_view_command,
 };
