@@ -25,11 +25,15 @@ using AddCommand = void (*)(CLI::App&, CommandResult&);
 constexpr AddCommand commands[] = {
     add_check_command,
     add_config_command,
+    add_export_command,
     add_forces_command,
     add_recover_command,
+    add_render_command,
     add_run_command,
     add_status_command,
+    add_sweep_command,
     add_validate_command,
+    add_view_command,
 };
 
 bool looks_like_override(const std::string& argument) {

@@ -32,8 +32,10 @@ double MinimisingNewton::norm(double squared) const {
 }
 
 bool MinimisingNewton::preconditioner_aged(double gamma) const {
+  // Between events the step changes by factors of two; up to three a set-up costs more than the iterations it saves.
+  constexpr double most = 3.0;
   const double ratio = gamma / preconditioner_gamma_;
-  return preconditioner_gamma_ == 0.0 || ratio > 1.6 || ratio < 1.0 / 1.6 || preconditioner_age_ > 40 ||
+  return preconditioner_gamma_ == 0.0 || ratio > most || ratio < 1.0 / most || preconditioner_age_ > 40 ||
          last_linear_ > 3 * std::max(fresh_linear_, 2);
 }
 

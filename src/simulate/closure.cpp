@@ -48,7 +48,8 @@ class Closure {
   TissueState& state_;  // at the last restart or, after each step, at the integrator's time
   Membrane membrane_;
   double start_, end_;
-  WoundTracker sampled_wound_, event_wound_;
+  WoundTracker sampled_wound_;
+  WoundNeighbourhood event_wound_;
   ClosureEvents events_;
   std::unique_ptr<TissueOde> ode_;
   std::unique_ptr<Integrator> integrator_;
@@ -209,7 +210,7 @@ void Closure::step() {
   const std::optional<double> kink = next_kink_time(state_.purse_string, integrator_->time());
   integrator_->step(std::min(end_, kink.value_or(end_)));
   double until = integrator_->time();
-  while (const std::optional<DueEvents> due = events_.find(*integrator_, state_)) {
+  while (const std::optional<DueEvents> due = events_.find(*integrator_, state_, event_wound_)) {
     TissueState at_event = state_at(due->time);
     if (!events_.apply(*due, at_event, event_wound_, log_)) continue;
     guard_progress(due->time);

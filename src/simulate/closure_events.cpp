@@ -56,8 +56,7 @@ ClosureEvents::ClosureEvents(const Config& config, const Membrane& membrane, dou
       thresholds_(tether_thresholds(config.purse_string, membrane.contact_distance)),
       start_(start_time),
       interval_(config.purse_string.event_interval),
-      gauge_(config.purse_string.event_handling),
-      exposure_(membrane) {}
+      gauge_(config.purse_string.event_handling) {}
 
 /// Earliest crossing of any watched event function inside the step, by bisection on the interpolant. A tether that
 /// crosses and comes back within one step is not an event: the step's own accuracy does not resolve it.
@@ -82,13 +81,9 @@ std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, con
   return DueEvents{high, std::move(due), false};
 }
 
-bool ClosureEvents::exposure_changed(const TissueState& state, const StateView& view) {
-  return exposure_(state.tissue, view).exposed != seen_exposed_;
-}
-
 /// Events at the grid times inside the step: the last one is examined, and only if something is due there is the first
 /// grid time at which it is looked for.
-std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, const TissueState& state) {
+std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   const long last = static_cast<long>(std::floor((integrator.time() - start_) / interval_ + 1e-9));
   if (last <= last_grid_) return std::nullopt;
   const bool tethers = gauge_.on_grid(integrator.time());
@@ -97,7 +92,7 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
     const StateView view(state.layout(), values_);
     DueEvents due{grid_time(k), {}, false};
     if (tethers) due.tethers = due_events(state.purse_string, view, thresholds_);
-    due.captures = parameters_.capture && exposure_changed(state, view);
+    due.captures = parameters_.capture && edge.exposed(state.tissue, view) != seen_exposed_;
     if (due.tethers.empty() && !due.captures) return std::nullopt;
     return due;
   };
@@ -121,10 +116,10 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
   return due;
 }
 
-std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const TissueState& state) {
+std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   if (state.purse_string.empty()) return std::nullopt;
   values_.resize(state.values.size());
-  std::optional<DueEvents> due = on_grid(integrator, state);
+  std::optional<DueEvents> due = on_grid(integrator, state, edge);
   if (gauge_.on_grid(integrator.time())) return due;
   std::optional<DueEvents> located = locate(integrator, state);
   if (!located || (due && due->time <= located->time)) return due;
@@ -134,11 +129,11 @@ std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const
 }
 
 /// Captures come first: a tether that breaks now is recaptured at the next grid time at the earliest.
-bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log) {
+bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log) {
   std::vector<int> vertex;  // the events' cell vertices: ring indices move when vertices are captured
   for (const RingEvent& e : due.tethers) vertex.push_back(state.purse_string.vertex[e.index]);
   bool changed = !due.tethers.empty();
-  if (due.captures) changed |= capture(state, tracker, log);
+  if (due.captures) changed |= capture(state, edge, log);
   std::vector<RingEvent> tethers = due.tethers;
   const std::vector<int>& ring = state.purse_string.vertex;
   for (std::size_t k = 0; k < tethers.size(); ++k)
@@ -150,9 +145,9 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundTracker
   return changed;
 }
 
-bool ClosureEvents::capture(TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log) {
-  seen_exposed_ = exposure_(state.tissue, state.view()).exposed;
-  const std::optional<Wound>& wound = tracker.update(state.tissue, state.view());
+bool ClosureEvents::capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log) {
+  seen_exposed_ = edge.exposed(state.tissue, state.view());
+  const std::optional<Wound>& wound = edge.update(state.tissue, state.view());
   if (!wound) return false;
   const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
   const bool published = parameters_.capture_law == CaptureLaw::slip;

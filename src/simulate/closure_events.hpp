@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "suture/integrate/integrator.hpp"
-#include "suture/measure/wound.hpp"
+#include "suture/measure/wound_neighbourhood.hpp"
 #include "suture/ode/purse_string_events.hpp"
 #include "suture/physics/purse_string_operations.hpp"
 
@@ -46,9 +46,9 @@ class ClosureEvents {
   ClosureEvents(const Config& config, const Membrane& membrane, double start_time);
 
   /// The first event in (integrator.time() - last_step(), time()], if any. `state` supplies tissue and ring.
-  std::optional<DueEvents> find(const Integrator& integrator, const TissueState& state);
+  std::optional<DueEvents> find(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
   /// Applies them to `state` (whose time and values are those of the event); true if anything changed.
-  bool apply(const DueEvents& due, TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log);
+  bool apply(const DueEvents& due, TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
   long storms() const { return gauge_.storms(); }
   /// What the next events depend on, for checkpoints (byte_archive.hpp).
   template <class Archive>
@@ -58,16 +58,14 @@ class ClosureEvents {
 
  private:
   std::optional<DueEvents> locate(const Integrator& integrator, const TissueState& state);
-  std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state);
-  bool capture(TissueState& state, WoundTracker& tracker, std::vector<EventRecord>& log);
-  bool exposure_changed(const TissueState& state, const StateView& view);
+  std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
+  bool capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
   double grid_time(long k) const { return start_ + static_cast<double>(k) * interval_; }
 
   PurseStringParameters parameters_;
   TetherThresholds thresholds_;
   double start_, interval_;
   StormGauge gauge_;
-  ExposureMeasure exposure_;
   std::vector<char> seen_exposed_;  // when captures were last settled
   long last_grid_ = 0;              // index of the last grid time looked at
   std::vector<double> values_;      // interpolated

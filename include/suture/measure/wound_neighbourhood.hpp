@@ -1,0 +1,51 @@
+// The wound as seen from the cells around it: the same result as the whole tissue gives, at the cost of the part that
+// matters. What watches a closure asks thousands of times for an edge that a dozen cells make up.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "suture/measure/exposure.hpp"
+#include "suture/measure/wound.hpp"
+
+namespace suture {
+
+/// Only cells whose bounding box comes within `margin` of the box of the wound's outline are looked at. They are chosen
+/// anew when the outline has come within half a margin of the edge of that region, so a wound may move by half a margin
+/// between two updates. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
+class WoundNeighbourhood {
+ public:
+  /// margin: model units of length; about the diameter of a cell.
+  explicit WoundNeighbourhood(const Membrane& membrane, double margin = 1.0);
+
+  /// As WoundTracker::update, vertices numbered as in `tissue`. Throws NumericalError as FreeBoundary does.
+  const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
+  /// One flag per vertex of `tissue`, by probe_disc; zero for cells that are not looked at. Valid until the next call.
+  const std::vector<char>& exposed(const Tissue& tissue, const StateView& state);
+  const std::optional<Wound>& wound() const { return wound_; }
+  /// Cells that are looked at; empty: all.
+  const std::vector<int>& cells() const { return cells_; }
+
+ private:
+  struct Region {
+    double x_low, x_high, y_low, y_high;
+  };
+  void choose_cells(const Tissue& tissue, const StateView& state);
+  bool outline_is_inside() const;
+  /// The part of the tissue that is looked at, and its positions.
+  const Tissue& part(const Tissue& tissue);
+  StateView gather(const StateView& state);
+
+  double margin_;
+  WoundTracker tracker_;
+  ExposureMeasure exposure_;
+  std::vector<int> cells_;      // that are looked at; empty: all
+  std::optional<Tissue> part_;  // made of them when it is needed
+  std::vector<int> vertex_;     // of the tissue, one per vertex of part_
+  std::vector<double> x_, y_;
+  Region region_{};
+  std::optional<Wound> wound_;
+  std::vector<char> exposed_;
+};
+
+}  // namespace suture

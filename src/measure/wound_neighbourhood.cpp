@@ -1,0 +1,83 @@
+#include "suture/measure/wound_neighbourhood.hpp"
+
+#include <algorithm>
+
+namespace suture {
+
+namespace {
+
+template <class Region>
+void include(Region& box, double x, double y) {
+  box.x_low = std::min(box.x_low, x), box.x_high = std::max(box.x_high, x);
+  box.y_low = std::min(box.y_low, y), box.y_high = std::max(box.y_high, y);
+}
+
+constexpr double infinity = 1e300;
+
+}  // namespace
+
+WoundNeighbourhood::WoundNeighbourhood(const Membrane& membrane, double margin)
+    : margin_(margin), tracker_(membrane), exposure_(membrane) {}
+
+void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state) {
+  region_ = {infinity, -infinity, infinity, -infinity};
+  for (const Point& p : wound_->outline) include(region_, p.x, p.y);
+  region_ = {region_.x_low - margin_, region_.x_high + margin_, region_.y_low - margin_, region_.y_high + margin_};
+  cells_.clear();
+  part_.reset();
+  for (int cell = 0; cell < tissue.cell_count(); ++cell) {
+    Region box{infinity, -infinity, infinity, -infinity};
+    for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) include(box, state.x[v], state.y[v]);
+    if (box.x_low <= region_.x_high && box.x_high >= region_.x_low && box.y_low <= region_.y_high && box.y_high >= region_.y_low)
+      cells_.push_back(cell);
+  }
+}
+
+bool WoundNeighbourhood::outline_is_inside() const {
+  const double half = 0.5 * margin_;
+  return std::all_of(wound_->outline.begin(), wound_->outline.end(), [&](const Point& p) {
+    return p.x > region_.x_low + half && p.x < region_.x_high - half && p.y > region_.y_low + half && p.y < region_.y_high - half;
+  });
+}
+
+const Tissue& WoundNeighbourhood::part(const Tissue& tissue) {
+  if (cells_.empty()) return tissue;
+  if (!part_) {
+    part_ = tissue.subset(cells_);
+    vertex_.clear();
+    for (const int cell : cells_)
+      for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) vertex_.push_back(v);
+  }
+  return *part_;
+}
+
+StateView WoundNeighbourhood::gather(const StateView& state) {
+  if (cells_.empty()) return state;
+  x_.resize(vertex_.size());
+  y_.resize(vertex_.size());
+  for (std::size_t k = 0; k < vertex_.size(); ++k) x_[k] = state.x[vertex_[k]], y_[k] = state.y[vertex_[k]];
+  StateView view;
+  view.x = x_, view.y = y_;
+  return view;
+}
+
+const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, const StateView& state) {
+  const Tissue& watched = part(tissue);
+  wound_ = tracker_.update(watched, gather(state));
+  if (!wound_) return wound_;
+  if (!cells_.empty())
+    for (int& v : wound_->boundary) v = vertex_[v];
+  if (cells_.empty() || !outline_is_inside()) choose_cells(tissue, state);
+  return wound_;
+}
+
+const std::vector<char>& WoundNeighbourhood::exposed(const Tissue& tissue, const StateView& state) {
+  const Tissue& watched = part(tissue);
+  const std::vector<char>& found = exposure_(watched, gather(state)).exposed;
+  if (cells_.empty()) return found;
+  exposed_.assign(tissue.vertex_count(), 0);
+  for (std::size_t k = 0; k < vertex_.size(); ++k) exposed_[vertex_[k]] = found[k];
+  return exposed_;
+}
+
+}  // namespace suture
