@@ -184,6 +184,14 @@ Hdf5File Hdf5File::open(const std::filesystem::path& path) {
 
 Hdf5Group Hdf5File::root() const { return Hdf5Group(own(H5Gopen2(handle_.id(), "/", H5P_DEFAULT), "the root group")); }
 
+std::vector<std::byte> Hdf5File::image() const {
+  check(H5Fflush(handle_.id(), H5F_SCOPE_GLOBAL), "flushing");
+  const ssize_t size = check(H5Fget_file_image(handle_.id(), nullptr, 0), "the file image");
+  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+  check(H5Fget_file_image(handle_.id(), bytes.data(), bytes.size()), "the file image");
+  return bytes;
+}
+
 Hdf5File::Hdf5File(Hdf5Handle handle) : handle_(std::move(handle)), failed_before_(failed_closings) {}
 
 void Hdf5File::finish() {

@@ -95,6 +95,8 @@ class Hdf5File {
   /// For reading.
   static Hdf5File open(const std::filesystem::path& path);
   Hdf5Group root() const;
+  /// The bytes of the file as it stands: a complete, closed HDF5 file.
+  std::vector<std::byte> image() const;
   /// Writes what is still in buffers and closes the file. Throws also when data were lost on the way, in the closing of
   /// a dataset.
   void finish();
