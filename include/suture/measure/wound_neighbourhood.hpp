@@ -25,6 +25,12 @@ class WoundNeighbourhood {
   const std::optional<Wound>& wound() const { return wound_; }
   /// Cells that are looked at; empty: all.
   const std::vector<int>& cells() const { return cells_; }
+  /// For checkpoints (byte_archive.hpp); what is made when it is needed is made again.
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(tracker_, cells_, region_.x_low, region_.x_high, region_.y_low, region_.y_high, wound_);
+    if constexpr (Archive::reading) part_.reset();
+  }
 
  private:
   struct Region {
