@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "groups.hpp"
-#include "suture/io/config.hpp"
+#include "suture/converge/study.hpp"
 #include "suture/measure/closure.hpp"
 #include "suture/simulate/closure.hpp"
 
@@ -62,8 +62,7 @@ void measure_closures(const Settings& settings, Report& report, const Packed& wo
     problem.config.run.end_time = settings.smoke ? 1.0 : settings.long_runs ? 700.0 : 20.0;
     for (const Method method : {Method::cvode, Method::rkc2, Method::automatic}) {
       problem.config.integrator.method = method;
-      const std::string name = std::string(studied.name) + ", " + config_value(problem.config, "integrator.method");
-      measure_closure(name, problem.config, problem.state, settings.repeats, report);
+      measure_closure(std::string(studied.name) + ", " + method_name(method), problem.config, problem.state, settings.repeats, report);
     }
   }
 }
@@ -78,7 +77,7 @@ void measure_ladders(const Settings& settings, Report& report, const Packed& wou
       const IntegratorOptions options = with_tolerance(method, 1e-3, state);
       Integrated result;
       const Timing timing = time_calls(settings.repeats, [&] { result = integrate(problem.config, state, options, end); });
-      Measurement m{"ladders", std::string(name) + (method == Method::cvode ? ", cvode" : ", rkc2"), {}, {}};
+      Measurement m{"ladders", std::string(name) + ", " + method_name(method), {}, {}};
       m.parameters = {{"k_a", area_stiffness}, {"tau", tau}, {"horizon", end}};
       m.values = {{"seconds", timing.median}, {"fastest_s", timing.fastest}};
       append_counts(m, result.statistics);

@@ -34,7 +34,7 @@ struct Options {
   std::vector<std::string> overrides, methods{"cvode", "rkc2", "euler"}, seeds;
   std::vector<double> tolerances{1e-2, 1e-3, 1e-4}, steps;
   std::string reference = "cvode", confirmation = "rkc2";
-  double reference_tolerance = 0.0, divergence = 0.1;
+  double reference_tolerance = 0.0, divergence = 0.01;
   int repeats = 1;
   bool quiet = false;
 };

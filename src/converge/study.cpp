@@ -216,7 +216,7 @@ void Study::run_seed(std::uint64_t seed) {
   if (stopped()) return;
   for (const Course* course : {&reference, &confirmation})
     if (!course->failure.empty()) throw NumericalError(fmt::format("seed {}: the reference failed: {}", seed, course->failure));
-  SeedReference judged{seed, {}, {}};
+  SeedReference judged{seed, {}, {}, differences(confirmation, reference, result_.rest_length)};
   judged.divergence_time = compare(confirmation, reference, result_.rest_length, forever, options.divergence).diverged_at;
   const double until = judged.divergence_time ? *judged.divergence_time - 0.5 * config.output.interval : forever;
   record(last, seed, std::move(confirmation), reference, until);

@@ -36,12 +36,19 @@ std::string line(const StudyRow& row) {
                      row.failure.empty() ? "done" : "failed");
 }
 
-std::string report_line(const StudyRow& row) {
+/// Errors not clearly above what the reference itself may be wrong by.
+bool unresolved(const StudyRow& row, const StudyResult& result) {
+  double uncertainty = 0.0;
+  for (const SeedReference& reference : result.references) uncertainty = std::max(uncertainty, reference.uncertainty.position);
+  return row.errors.position < 3.0 * uncertainty;
+}
+
+std::string report_line(const StudyRow& row, bool uncertain) {
   if (row.seeds == 0) return fmt::format("  {:<8} {:>9.3g}  failed: {}\n", method_name(row.method), row.tolerance_or_dt, row.failure);
   const CourseErrors& e = row.errors;
   const auto text = [](const std::optional<double>& value) { return value ? fmt::format("{:.1e}", *value) : std::string("-"); };
-  return fmt::format("  {:<8} {:>9.3g}  {:>8.1e} {:>8.1e} {:>8.1e} {:>8} {:>8}  {:>9.0f} {:>8.0f} {:>8.3f} {:>8.3f}\n", method_name(row.method),
-                     row.tolerance_or_dt, e.position, e.position_max, e.area, text(e.shape), text(e.t_05), row.rate_evaluations,
+  return fmt::format("  {:<8} {:>9.3g}  {:>8.1e}{} {:>8.1e} {:>8.1e} {:>8} {:>8}  {:>9.0f} {:>8.0f} {:>8.3f} {:>8.3f}\n", method_name(row.method),
+                     row.tolerance_or_dt, e.position, uncertain ? '*' : ' ', e.position_max, e.area, text(e.shape), text(e.t_05), row.rate_evaluations,
                      row.steps, row.wall_s, row.cpu_s);
 }
 
@@ -56,6 +63,14 @@ std::string study_csv(const StudyResult& result) {
 std::string seeds_csv(const StudyResult& result) {
   std::string text = fmt::format("seed,{}", columns);
   for (const auto& [seed, row] : result.seed_rows) text += fmt::format("{},{}", seed, line(row));
+  return text;
+}
+
+std::string references_csv(const StudyResult& result) {
+  std::string text = "seed,time,difference_position,difference_position_max,difference_area,difference_shape\n";
+  for (const SeedReference& reference : result.references)
+    for (const SampleDifference& d : reference.difference)
+      text += fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", reference.seed, d.time, d.position, d.position_max, d.area, field(d.shape));
   return text;
 }
 
@@ -101,16 +116,19 @@ void write_study(const StudyResult& result, const StudyRequest& request, const s
   std::filesystem::create_directories(directory);
   write_file_atomically(directory / "converge.csv", study_csv(result));
   write_file_atomically(directory / "converge_seeds.csv", seeds_csv(result));
+  write_file_atomically(directory / "references.csv", references_csv(result));
   write_file_atomically(directory / "converge.json", study_json(result, request, command_line));
 }
 
 std::string study_report(const StudyResult& result, const StudyOptions& options) {
   std::string text = fmt::format("errors in l0 = {:.6g} (positions), a0 (area); reference {} at {:.3g}, confirmed by {}\n", result.rest_length,
                                  method_name(options.reference), options.reference_tolerance, method_name(options.confirmation));
-  text += fmt::format("  {:<8} {:>9}  {:>8} {:>8} {:>8} {:>8} {:>8}  {:>9} {:>8} {:>8} {:>8}\n", "method", "tol or dt", "rms", "max", "area",
+  text += fmt::format("  {:<8} {:>9}  {:>8}  {:>8} {:>8} {:>8} {:>8}  {:>9} {:>8} {:>8} {:>8}\n", "method", "tol or dt", "rms", "max", "area",
                       "shape", "t_05", "rates", "steps", "wall s", "cpu s");
   for (const StudyRow& row : result.rows)
-    if (!row.confirmation) text += report_line(row);
+    if (!row.confirmation) text += report_line(row, unresolved(row, result));
+  if (std::any_of(result.rows.begin(), result.rows.end(), [&](const StudyRow& row) { return !row.confirmation && row.seeds > 0 && unresolved(row, result); }))
+    text += "  * less than three times the reference's own uncertainty: not resolved\n";
   for (const SeedReference& reference : result.references) {
     text += fmt::format("seed {}: the two references differ by {:.1e} l0 (rms), {:.1e} (max), area {:.1e}", reference.seed,
                         reference.uncertainty.position, reference.uncertainty.position_max, reference.uncertainty.area);

@@ -44,6 +44,13 @@ struct CourseErrors {
   std::optional<double> diverged_at;  ///< first sample of all at which the root mean square exceeds the threshold
 };
 
+/// The difference of two courses at one common sample; positions in the unit given.
+struct SampleDifference {
+  double time = 0.0, position = 0.0, position_max = 0.0, area = 0.0;
+  std::optional<double> shape;
+};
+std::vector<SampleDifference> differences(const Course& course, const Course& reference, double unit);
+
 /// `until`: samples later than this are not compared (infinity: all that both have). `threshold`: units of `unit`.
 /// Throws InputError when the courses have no sample in common.
 CourseErrors compare(const Course& course, const Course& reference, double unit, double until, double threshold);

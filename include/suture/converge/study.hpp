@@ -27,7 +27,7 @@ struct StudyOptions {
   std::vector<double> steps;       ///< of the fixed-step methods, model units
   std::vector<std::uint64_t> seeds;
   int repeats = 1;                 ///< of every run; times are medians
-  double divergence = 0.1;         ///< threshold of divergence, in l0
+  double divergence = 0.01;        ///< threshold of divergence, in l0
   Method reference = Method::cvode, confirmation = Method::rkc2;
   double reference_tolerance = 0.0;  ///< in l0
 };
@@ -49,6 +49,7 @@ struct SeedReference {
   std::uint64_t seed = 0;
   std::optional<double> divergence_time;  ///< empty: never
   CourseErrors uncertainty;               ///< up to the divergence time
+  std::vector<SampleDifference> difference;  ///< of the two references, at every sample
 };
 
 struct StudyResult {
@@ -79,9 +80,11 @@ StudyResult run_study(const StudyRequest& request);
 std::string study_csv(const StudyResult& result);
 /// converge_seeds.csv: the same per seed.
 std::string seeds_csv(const StudyResult& result);
+/// references.csv: how far apart the two references of each seed are, against time.
+std::string references_csv(const StudyResult& result);
 /// converge.json: the problem, the references and where the numbers come from.
 std::string study_json(const StudyResult& result, const StudyRequest& request, const std::string& command_line);
-/// Writes converge.csv, converge_seeds.csv and converge.json into `directory`, which is created. Throws FileError.
+/// Writes converge.csv, converge_seeds.csv, references.csv and converge.json into `directory`, which is created. Throws FileError.
 void write_study(const StudyResult& result, const StudyRequest& request, const std::string& command_line,
                  const std::filesystem::path& directory);
 /// A table and the verdict on the reference, for people.

@@ -20,7 +20,11 @@ Table read_table(const std::filesystem::path& file) {
   std::ifstream stream(file);
   const auto fields = [](const std::string& line) {
     std::vector<std::string> all(1);
-    for (const char c : line) c == ',' ? all.emplace_back() : void(all.back() += c);
+    for (const char c : line)
+      if (c == ',')
+        all.emplace_back();
+      else
+        all.back() += c;
     return all;
   };
   std::string line;

@@ -20,6 +20,7 @@ IntegratorOptions toy_options(Method method) {
   IntegratorOptions options = with_tolerance(method, 1e-4);
   options.time_step = 0.01;
   options.largest_move = 10.0;
+  options.vertex_mass = 0.01;  // verlet: nearly overdamped
   return options;
 }
 
