@@ -45,11 +45,14 @@ void draw_line(cairo_t* context, double x1, double y1, double x2, double y2) {
   cairo_stroke(context);
 }
 
-/// "1", "0.01", "1e-5"; of a decade, or 2 and 5 times one where there are few decades.
+/// "1", "0.01", "1e-5", "1e6".
 std::string tick_label(double value) {
-  return value >= 0.99e-3 && value < 1e5 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
+  if (value >= 0.99e-2 && value < 0.99e4) return fmt::format("{:g}", value);
+  const int exponent = static_cast<int>(std::floor(std::log10(value) + 1e-9));
+  return fmt::format("{:.0f}e{}", value / std::pow(10.0, exponent), exponent);
 }
 
+/// Decades, and 2 and 5 times one where there are few.
 std::vector<double> ticks(const LogAxis& axis) {
   std::vector<double> values;
   const bool few = axis.high - axis.low < 2.2;
