@@ -29,34 +29,38 @@ class ArkodeIntegrator final : public Integrator {
   int last_order() const override { return order; }
   void interpolate(double t, std::span<double> y) const override;
   Statistics statistics() const override;
+  void resume(double t, std::span<const double> y, std::span<const int> source) override;
 
  private:
-  void configure(const IntegratorOptions& options);
+  void create(std::span<const double> y);
   void retry();
 
-  SundialsProblem problem_;
+  OdeSystem* system_;
+  IntegratorOptions options_;
+  std::unique_ptr<SundialsProblem> problem_;
   void* arkode_ = nullptr;
   double time_, last_step_ = 0.0;
   std::vector<double> accepted_;  // ARKODE computes stages in the vector it is given
   long refused_ = 0;
+  Statistics before_;  // until the last resume
 };
 
 ArkodeIntegrator::ArkodeIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
-    : problem_(system, options, y),
-      arkode_(ERKStepCreate(SundialsProblem::rate, t, problem_.y, problem_.context)),
-      time_(t),
-      accepted_(y.begin(), y.end()) {
+    : system_(&system), options_(options), time_(t) {
   try {
-    configure(options);
+    create(y);
   } catch (...) {
     ERKStepFree(&arkode_);
     throw;
   }
 }
 
-void ArkodeIntegrator::configure(const IntegratorOptions& options) {
+void ArkodeIntegrator::create(std::span<const double> y) {
   const auto check = SundialsProblem::check;
-  check(ERKStepSetUserData(arkode_, &problem_), "ERKStepSetUserData");
+  problem_ = std::make_unique<SundialsProblem>(*system_, options_, y);
+  accepted_.assign(y.begin(), y.end());
+  arkode_ = ERKStepCreate(SundialsProblem::rate, time_, problem_->y, problem_->context);
+  check(ERKStepSetUserData(arkode_, problem_.get()), "ERKStepSetUserData");
   check(ERKStepSetErrHandlerFn(arkode_, [](int, const char*, const char*, char*, void*) {}, nullptr), "ERKStepSetErrHandlerFn");
   check(ERKStepWFtolerances(arkode_, SundialsProblem::weights), "ERKStepWFtolerances");
   check(ERKStepSetOrder(arkode_, order), "ERKStepSetOrder");
@@ -64,16 +68,26 @@ void ArkodeIntegrator::configure(const IntegratorOptions& options) {
   check(ERKStepSetInterpolantDegree(arkode_, 3), "ERKStepSetInterpolantDegree");
   check(ERKStepSetMaxNumSteps(arkode_, -1), "ERKStepSetMaxNumSteps");
   check(ERKStepSetMaxErrTestFails(arkode_, 20), "ERKStepSetMaxErrTestFails");
-  if (options.initial_step > 0.0) check(ERKStepSetInitStep(arkode_, options.initial_step), "ERKStepSetInitStep");
-  if (options.maximum_step > 0.0) check(ERKStepSetMaxStep(arkode_, options.maximum_step), "ERKStepSetMaxStep");
+  if (options_.initial_step > 0.0) check(ERKStepSetInitStep(arkode_, options_.initial_step), "ERKStepSetInitStep");
+  if (options_.maximum_step > 0.0) check(ERKStepSetMaxStep(arkode_, options_.maximum_step), "ERKStepSetMaxStep");
+}
+
+void ArkodeIntegrator::resume(double t, std::span<const double> y, std::span<const int>) {
+  before_ = statistics();
+  refused_ = 0;
+  if (last_step_ > 0.0) options_.initial_step = last_step_;
+  ERKStepFree(&arkode_);
+  time_ = t;
+  last_step_ = 0.0;
+  create(y);
 }
 
 /// ARKODE gives up when a stage is refused; start again from the last accepted state with a quarter of the step.
 void ArkodeIntegrator::retry() {
   double h = 0.0;
   ERKStepGetCurrentStep(arkode_, &h);
-  std::copy(accepted_.begin(), accepted_.end(), values(problem_.y).begin());
-  SundialsProblem::check(ERKStepReset(arkode_, time_, problem_.y), "ERKStepReset");
+  std::copy(accepted_.begin(), accepted_.end(), values(problem_->y).begin());
+  SundialsProblem::check(ERKStepReset(arkode_, time_, problem_->y), "ERKStepReset");
   SundialsProblem::check(ERKStepSetInitStep(arkode_, 0.25 * h), "ERKStepSetInitStep");
   ++refused_;
 }
@@ -86,8 +100,8 @@ double ArkodeIntegrator::step(double limit) {
   for (int attempt = 0; attempt < 40; ++attempt) {
     SundialsProblem::check(ERKStepSetMinStep(arkode_, 1e-13 * std::abs(time_)), "ERKStepSetMinStep");
     SundialsProblem::check(ERKStepSetStopTime(arkode_, std::min(limit, latest_time)), "ERKStepSetStopTime");
-    flag = ERKStepEvolve(arkode_, target, problem_.y, &reached, ARK_ONE_STEP);
-    problem_.rethrow();
+    flag = ERKStepEvolve(arkode_, target, problem_->y, &reached, ARK_ONE_STEP);
+    problem_->rethrow();
     const bool refused = flag == ARK_UNREC_RHSFUNC_ERR || flag == ARK_REPTD_RHSFUNC_ERR || flag == ARK_RHSFUNC_FAIL;
     if (!refused) break;
     retry();
@@ -95,19 +109,19 @@ double ArkodeIntegrator::step(double limit) {
   if (flag < 0) {
     double h = 0.0;
     ERKStepGetCurrentStep(arkode_, &h);
-    const bool error_test = flag == ARK_ERR_FAILURE && ERKStepGetEstLocalErrors(arkode_, problem_.scratch) == ARK_SUCCESS;
+    const bool error_test = flag == ARK_ERR_FAILURE && ERKStepGetEstLocalErrors(arkode_, problem_->scratch) == ARK_SUCCESS;
     const char* what = error_test ? "the error test failed repeatedly" : "the step did not succeed";
-    problem_.fail(what, time_, h, order, error_test ? problem_.scratch : nullptr, flag);
+    problem_->fail(what, time_, h, order, error_test ? problem_->scratch : nullptr, flag);
   }
   last_step_ = reached - time_;
   time_ = reached;
-  std::copy_n(values(problem_.y).begin(), accepted_.size(), accepted_.begin());
+  std::copy_n(values(problem_->y).begin(), accepted_.size(), accepted_.begin());
   return time_;
 }
 
 void ArkodeIntegrator::interpolate(double t, std::span<double> y) const {
-  SundialsProblem::check(ERKStepGetDky(arkode_, t, 0, problem_.scratch), "ERKStepGetDky");
-  std::copy_n(values(problem_.scratch).begin(), y.size(), y.begin());
+  SundialsProblem::check(ERKStepGetDky(arkode_, t, 0, problem_->scratch), "ERKStepGetDky");
+  std::copy_n(values(problem_->scratch).begin(), y.size(), y.begin());
 }
 
 Statistics ArkodeIntegrator::statistics() const {
@@ -115,11 +129,11 @@ Statistics ArkodeIntegrator::statistics() const {
   ERKStepGetNumSteps(arkode_, &steps);
   ERKStepGetNumErrTestFails(arkode_, &error_failures);
   Statistics s;
-  s.rate_evaluations = problem_.rate_evaluations;
+  s.rate_evaluations = problem_->rate_evaluations;
   s.steps = s.explicit_steps = steps;
   s.error_test_failures = error_failures;
   s.convergence_failures = refused_;
-  return s;
+  return s += before_;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
-// Starts with RKC2 and changes to CVODE where stiffness makes RKC2's steps dear. The choice depends on counted evaluations
-// alone, never on a clock, so a run can be repeated.
+// RKC2 or CVODE, whichever the stiffness at hand makes cheaper. The choice depends on counted evaluations and on the step,
+// never on a clock, so a run can be repeated.
+#include <cmath>
+
 #include "integrate/cvode_integrator.hpp"
 #include "integrate/rivals.hpp"
 
@@ -7,7 +9,8 @@ namespace suture {
 
 namespace {
 
-constexpr int probation = 8;  // steps over which RKC2's rates per step are measured
+constexpr int probation = 8;       // steps over which a method is judged
+constexpr double hysteresis = 0.5; // RKC2 comes back only where it would clearly stay
 
 class AutomaticIntegrator final : public Integrator {
  public:
@@ -15,7 +18,7 @@ class AutomaticIntegrator final : public Integrator {
       : system_(&system), options_(options), current_(make_rkc2(system, options, t, y)) {}
 
   double step(double limit) override {
-    if (explicit_) judge();
+    judge();
     return current_->step(limit);
   }
   double time() const override { return current_->time(); }
@@ -27,29 +30,47 @@ class AutomaticIntegrator final : public Integrator {
     Statistics total = before_;
     return total += current_->statistics();
   }
+  void resume(double t, std::span<const double> y, std::span<const int> source) override { current_->resume(t, y, source); }
 
  private:
-  /// Between steps, so that the last step of the old method can be interpolated until the next is asked for.
-  void judge() {
-    const Statistics now = current_->statistics();
-    if (now.steps < judged_.steps + probation) return;
-    const auto rates = static_cast<double>(now.rate_evaluations - judged_.rate_evaluations);
-    const auto steps = static_cast<double>(now.steps - judged_.steps);
-    judged_ = now;
-    if (rates <= options_.switch_stages * steps) return;
-    options_.initial_step = current_->last_step();
-    std::unique_ptr<Integrator> implicit = make_cvode(*system_, options_, current_->time(), current_->state());
-    before_ = now;
-    current_ = std::move(implicit);
-    explicit_ = false;
-  }
+  void judge();
+  void change();
 
   GradientFlowSystem* system_;
   IntegratorOptions options_;
   std::unique_ptr<Integrator> current_;
   bool explicit_ = true;
-  Statistics before_, judged_;
+  double stiffness_ = 0.0;  // spectral radius that RKC2's stages amounted to when it was left
+  Statistics before_;       // of the methods before the present one
+  Statistics judged_;       // of the present one, when it was last judged
+  double judged_time_ = time();
 };
+
+/// Between steps, so that the last step of the old method can be interpolated until the next is asked for. RKC2 with s
+/// stages is stable to h rho = 0.65 s^2, hence the stages it would need for CVODE's steps.
+void AutomaticIntegrator::judge() {
+  const Statistics now = current_->statistics();
+  if (now.steps < judged_.steps + probation) return;
+  const auto steps = static_cast<double>(now.steps - judged_.steps);
+  const double stages = static_cast<double>(now.rate_evaluations - judged_.rate_evaluations) / steps;
+  const double step = (time() - judged_time_) / steps;
+  judged_ = now;
+  judged_time_ = time();
+  if (!(step > 0.0) || !(last_step() > 0.0)) return;
+  if (explicit_) stiffness_ = 0.65 * stages * stages / step;
+  const double wanted = explicit_ ? stages : std::sqrt(stiffness_ * step / 0.65);
+  if (explicit_ ? wanted > options_.switch_stages : wanted < hysteresis * options_.switch_stages) change();
+}
+
+void AutomaticIntegrator::change() {
+  options_.initial_step = last_step();
+  const double t = time();
+  std::unique_ptr<Integrator> next = explicit_ ? make_cvode(*system_, options_, t, state()) : make_rkc2(*system_, options_, t, state());
+  before_ += current_->statistics();
+  current_ = std::move(next);
+  explicit_ = !explicit_;
+  judged_ = {};
+}
 
 }  // namespace
 

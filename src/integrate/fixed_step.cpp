@@ -50,6 +50,7 @@ class Verlet final : public FixedStep {
  public:
   Verlet(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
       : FixedStep(system, options, t, y, 2), acceleration_(system.position_count()) {}
+  void resume(double t, std::span<const double> y, std::span<const int> source) override;
 
  private:
   void advance(double h) override {
@@ -68,6 +69,21 @@ class Verlet final : public FixedStep {
   }
   std::vector<double> acceleration_;  // starts at rest relative to the overdamped motion
 };
+
+/// Inertia outlives an event: velocities are interpolated to its time and carried over, and the forces that the event has
+/// changed accelerate from there.
+void Verlet::resume(double t, std::span<const double> y, std::span<const int> source) {
+  const double part = last_step_ > 0.0 ? (time_ - t) / last_step_ : 0.0;
+  std::vector<double> velocity(acceleration_.size());
+  for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] = f_[k] + part * (f_before_[k] - f_[k]);
+  ExplicitIntegrator::resume(t, y, source);
+  acceleration_.resize(static_cast<std::size_t>(system_->position_count()));
+  for (std::size_t k = 0; k < acceleration_.size(); ++k) {
+    const double kept = velocity[source.empty() ? k : static_cast<std::size_t>(source[k])];
+    acceleration_[k] = (f_[k] - kept) / options_.vertex_mass;
+    f_[k] = kept;
+  }
+}
 
 class RungeKutta4 final : public FixedStep {
  public:

@@ -16,7 +16,7 @@ std::unique_ptr<Integrator> make_arkode(OdeSystem& system, const IntegratorOptio
 /// CVODE's Adams formulas, up to options.maximum_order, solved by Anderson-accelerated fixed-point iteration.
 std::unique_ptr<Integrator> make_adams(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y);
 
-/// RKC2 until its steps take more than options.switch_stages evaluations on average, then CVODE.
+/// RKC2 while its steps take at most options.switch_stages evaluations on average, CVODE otherwise.
 std::unique_ptr<Integrator> make_automatic(GradientFlowSystem& system, const IntegratorOptions& options, double t,
                                            std::span<const double> y);
 

@@ -35,7 +35,7 @@ only_in() { # PATTERN ALLOWED-PATH-PATTERN
     failed=1
   done
 }
-only_in '(cvode|arkode|sundials|sunnonlinsol|nvector)' '^src/integrate/(cvode_integrator|adams_integrator|arkode_integrator|sundials_problem|fused_nvector)'
+only_in '(cvode|arkode|sundials|sunnonlinsol|nvector)' '^src/integrate/(cvode_integrator|cvode_history|adams_integrator|arkode_integrator|sundials_problem|fused_nvector)'
 only_in 'hdf5' '^src/io/hdf5_file\.cpp'
 only_in 'toml\+\+' '^src/io/config_document\.cpp'
 only_in 'cairo' '^src/render/'
