@@ -47,7 +47,7 @@ std::string report_line(const StudyRow& row, bool uncertain) {
   if (row.seeds == 0) return fmt::format("  {:<8} {:>9.3g}  failed: {}\n", method_name(row.method), row.tolerance_or_dt, row.failure);
   const CourseErrors& e = row.errors;
   const auto text = [](const std::optional<double>& value) { return value ? fmt::format("{:.1e}", *value) : std::string("-"); };
-  return fmt::format("  {:<8} {:>9.3g}  {:>8.1e}{} {:>8.1e} {:>8.1e} {:>8} {:>8}  {:>9.0f} {:>8.0f} {:>8.3f} {:>8.3f}\n", method_name(row.method),
+  return fmt::format("  {:<8} {:>9.3g}  {:>8.1e}{} {:>8.1e} {:>8.1e} {:>8} {:>8}  {:>9.0f} {:>8.0f} {:>8.3g} {:>8.3g}\n", method_name(row.method),
                      row.tolerance_or_dt, e.position, uncertain ? '*' : ' ', e.position_max, e.area, text(e.shape), text(e.t_05), row.rate_evaluations,
                      row.steps, row.wall_s, row.cpu_s);
 }
