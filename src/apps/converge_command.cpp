@@ -34,7 +34,7 @@ struct Options {
   std::vector<std::string> overrides, methods{"cvode", "rkc2", "euler"}, seeds;
   std::vector<double> tolerances{1e-2, 1e-3, 1e-4}, steps;
   std::string reference = "cvode", confirmation = "rkc2";
-  double reference_tolerance = 0.0, divergence = 0.01;
+  double reference_tolerance = 0.0, divergence = 0.0;
   int repeats = 1;
   bool quiet = false;
 };
@@ -74,7 +74,6 @@ StudyOptions study_options(const Options& options, const Config& config) {
   for (const std::string& word : options.methods) study.methods.push_back(read_method(word));
   check_positive("--tolerances", options.tolerances, 1.0);
   check_positive("--steps", options.steps, 1e300);
-  check_positive("--divergence", {options.divergence}, 1e300);
   study.tolerances = options.tolerances;
   std::sort(study.tolerances.begin(), study.tolerances.end(), std::greater());
   study.steps = options.steps;
@@ -86,19 +85,19 @@ StudyOptions study_options(const Options& options, const Config& config) {
   for (const std::string& word : options.seeds) add_seeds(word, study.seeds);
   if (study.seeds.empty()) study.seeds = {config.tissue.seed};
   study.repeats = options.repeats;
-  study.divergence = options.divergence;
   study.reference = read_method(options.reference);
   study.confirmation = read_method(options.confirmation);
   study.reference_tolerance = options.reference_tolerance;
-  if (!(study.reference_tolerance > 0.0))
-    study.reference_tolerance = 0.01 * (study.tolerances.empty() ? config.integrator.tolerance : study.tolerances.back());
+  const double tightest = study.tolerances.empty() ? config.integrator.tolerance : study.tolerances.back();
+  if (!(study.reference_tolerance > 0.0)) study.reference_tolerance = 0.01 * tightest;
+  study.divergence = options.divergence > 0.0 ? options.divergence : tightest;
   return study;
 }
 
 std::string command_line(const Options& options, const StudyOptions& study) {
   std::string text = fmt::format("suture converge {} --methods {} --tolerances {} --steps {} --seeds {} --repeats {} --divergence {}", options.file,
                                  fmt::join(options.methods, ","), fmt::join(study.tolerances, ","), fmt::join(study.steps, ","),
-                                 fmt::join(study.seeds, ","), options.repeats, options.divergence);
+                                 fmt::join(study.seeds, ","), options.repeats, study.divergence);
   text += fmt::format(" --reference {} --confirmation {} --reference-tolerance {:g}", options.reference, options.confirmation, study.reference_tolerance);
   for (const std::string& set : options.overrides) text += fmt::format(" --set {}", set);
   return text;
@@ -133,7 +132,7 @@ void add_options(CLI::App& command, Options& options) {
   command.add_option("--steps", options.steps, "of the fixed-step methods, in model units [8, 4, 2 and 1 x integrator.time_step]")->delimiter(',');
   command.add_option("--seeds", options.seeds, "tissues to repeat the study on: numbers and ranges such as 1-5 [tissue.seed]")->delimiter(',');
   command.add_option("--repeats", options.repeats, "repetitions of each run; times are medians")->check(CLI::Range(1, 1000))->capture_default_str();
-  command.add_option("--divergence", options.divergence, "trajectories count as diverged when they differ by more than this, in l0")->capture_default_str();
+  command.add_option("--divergence", options.divergence, "trajectories count as diverged when the references differ by more than this, in l0 [the tightest tolerance]")->check(CLI::PositiveNumber);
   command.add_option("--reference", options.reference, "method of the reference")->capture_default_str();
   command.add_option("--confirmation", options.confirmation, "second method, which confirms the reference")->capture_default_str();
   command.add_option("--reference-tolerance", options.reference_tolerance, "in l0 [a hundredth of the tightest tolerance]")->check(CLI::PositiveNumber);

@@ -15,9 +15,10 @@ TEST_CASE("an event that changes nothing changes nothing", "[convergence]") {
     Method method;
     double step, expected;  ///< of fixed-step methods; difference from the run without events
   };
-  // Fixed steps: events cut steps short, which changes the error by about itself. Adaptive: by a few tolerances.
+  // Adaptive: a few tolerances. Fixed steps: events cut them short, which changes the error by about itself: 0.2 h for Euler,
+  // 10 h^2 for Verlet (whose velocities are interpolated linearly), h^2 for the cubic output of RK4.
   for (const Row& row : {Row{Method::cvode, 0.0, 2e-5}, Row{Method::rkc2, 0.0, 2e-5}, Row{Method::automatic, 0.0, 2e-5}, Row{Method::arkode, 0.0, 2e-5},
-                         Row{Method::adams, 0.0, 2e-5}, Row{Method::euler, 1e-3, 2e-4}, Row{Method::verlet, 1e-3, 2e-6}, Row{Method::rk4, 1e-3, 1e-6}}) {
+                         Row{Method::adams, 0.0, 2e-5}, Row{Method::euler, 1e-3, 2e-4}, Row{Method::verlet, 1e-3, 1e-5}, Row{Method::rk4, 1e-3, 1e-6}}) {
     TissueOde ode(state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {});
     IntegratorOptions options = with_tolerance(row.method, 1e-6);
     options.time_step = row.step;

@@ -27,7 +27,7 @@ struct StudyOptions {
   std::vector<double> steps;       ///< of the fixed-step methods, model units
   std::vector<std::uint64_t> seeds;
   int repeats = 1;                 ///< of every run; times are medians
-  double divergence = 0.01;        ///< threshold of divergence, in l0
+  double divergence = 1e-3;        ///< threshold of divergence, in l0
   Method reference = Method::cvode, confirmation = Method::rkc2;
   double reference_tolerance = 0.0;  ///< in l0
 };

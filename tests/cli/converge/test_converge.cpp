@@ -90,6 +90,27 @@ TEST_CASE("converge on a small wound finds closure times and compares means over
   CHECK(outcome.output.find("the two references differ by") != std::string::npos);
 }
 
+TEST_CASE("every method closes a small wound, events included", "[cli]") {
+  const TemporaryDirectory directory;
+  const Outcome outcome = run_suture(SUTURE_PROGRAM,
+                                     {"converge", examples + "small.toml", "--quiet", "--out", "out", "--methods", "cvode,rkc2,auto,arkode,adams,euler,verlet,rk4",
+                                      "--tolerances", "1e-3", "--steps", "2e-3", "--seeds", "2", "--reference-tolerance", "1e-5", "--set", "integrator.vertex_mass=0.05"},
+                                     directory.path());
+  INFO(outcome.errors);
+  REQUIRE(outcome.exit_code == 0);
+  const Table table = read_table(directory.path() / "out/converge.csv");
+  REQUIRE(table.size() == 9);
+  for (const auto& row : table) {
+    CAPTURE(row.at("method"), row.at("error_t5"), row.at("mean_error_area"));
+    CHECK(row.at("status") == "done");
+    CHECK(std::stod(row.at("restarts")) >= 1.0);
+    REQUIRE_FALSE(row.at("error_t5").empty());
+    const bool with_mass = row.at("method") == "verlet";  // another motion, which meets other events
+    CHECK(std::stod(row.at("error_t5")) < (with_mass ? 10.0 : 0.2));
+    CHECK(std::stod(row.at("mean_error_area")) < (with_mass ? 0.5 : 0.03));
+  }
+}
+
 TEST_CASE("bad options of converge are refused before anything is written", "[cli]") {
   const TemporaryDirectory directory;
   const auto refused = [&](std::vector<std::string> extra, const std::string& expected) {
