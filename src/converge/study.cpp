@@ -56,36 +56,26 @@ std::vector<StudyCase> cases_of(const StudyOptions& options) {
   return cases;
 }
 
-/// A root mean square or, of optional values, one over those there are.
-class RootMeanSquare {
- public:
-  void add(std::optional<double> value) {
-    if (value) sum_ += *value * *value, ++count_;
-  }
-  std::optional<double> value() const { return count_ > 0 ? std::optional(std::sqrt(sum_ / count_)) : std::nullopt; }
+/// Median of the values there are: one tissue that took another branch does not hide the others.
+std::optional<double> typical(const std::vector<const SeedRun*>& runs, const std::function<std::optional<double>(const CourseErrors&)>& value) {
+  std::vector<double> values;
+  for (const SeedRun* run : runs)
+    if (const std::optional<double> v = value(run->errors)) values.push_back(*v);
+  return values.empty() ? std::nullopt : std::optional(median(values));
+}
 
- private:
-  double sum_ = 0.0;
-  int count_ = 0;
-};
-
-void average_errors(StudyRow& row, const std::vector<const SeedRun*>& runs) {
-  RootMeanSquare position, area, shape, t_05;
+void summarise_errors(StudyRow& row, const std::vector<const SeedRun*>& runs) {
+  row.errors.position = *typical(runs, [](const CourseErrors& e) { return e.position; });
+  row.errors.area = *typical(runs, [](const CourseErrors& e) { return e.area; });
+  row.errors.shape = typical(runs, [](const CourseErrors& e) { return e.shape; });
+  row.errors.t_05 = typical(runs, [](const CourseErrors& e) { return e.t_05; });
   row.errors.until = forever;
   for (const SeedRun* run : runs) {
-    position.add(run->errors.position);
-    area.add(run->errors.area);
-    shape.add(run->errors.shape);
-    t_05.add(run->errors.t_05);
     row.errors.position_max = std::max(row.errors.position_max, run->errors.position_max);
     row.errors.until = std::min(row.errors.until, run->errors.until);
     if (run->errors.diverged_at)
       row.errors.diverged_at = std::min(row.errors.diverged_at.value_or(forever), *run->errors.diverged_at);
   }
-  row.errors.position = position.value().value_or(0.0);
-  row.errors.area = area.value().value_or(0.0);
-  row.errors.shape = shape.value();
-  row.errors.t_05 = t_05.value();
 }
 
 void average_costs(StudyRow& row, const std::vector<const SeedRun*>& runs) {
@@ -254,7 +244,7 @@ StudyRow Study::row(std::size_t k, const std::vector<const SeedRun*>& runs) cons
   row.seeds = static_cast<int>(good.size());
   average_costs(row, good.empty() ? runs : good);
   if (good.empty()) return row;
-  average_errors(row, good);
+  summarise_errors(row, good);
   compare_means(row, courses, references);
   return row;
 }

@@ -39,7 +39,7 @@ struct StudyRow {
   bool confirmation = false;  ///< the second reference against the first: the reference's own uncertainty
   int seeds = 1;              ///< that did not fail
   std::string failure;        ///< of the first seed that failed
-  CourseErrors errors;        ///< over seeds: root mean squares; position_max the largest, until the smallest
+  CourseErrors errors;        ///< over seeds: medians; position_max the largest, until and diverged_at the smallest
   std::optional<double> mean_area, mean_shape, mean_t_05;  ///< errors of means over seeds, whole run
   double rate_evaluations = 0.0, steps = 0.0, newton_iterations = 0.0, linear_iterations = 0.0, restarts = 0.0;
   double wall_s = 0.0, cpu_s = 0.0;  ///< medians over repeats, means over seeds
