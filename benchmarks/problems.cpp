@@ -15,11 +15,15 @@
 
 namespace suture::benchmark {
 
-Packed packed_tissue(int cells, int vertices) {
+Packed packed_tissue(int cells, int vertices, bool rough) {
   Packed packed;
   packed.config.tissue.cells = cells;
   packed.config.tissue.vertices = vertices;
   packed.config.run.last_stage = Stage::packing;
+  if (rough) {
+    packed.config.packing.increment = 0.02;
+    packed.config.packing.step_tolerance = packed.config.packing.force_tolerance = 0.02;
+  }
   packed.config = with_contact_distance(packed.config);
   packed.seconds = time_calls(1, [&] { packed.state = prepare_tissue(packed.config).state; }).median;
   packed.state.time = 0.0;

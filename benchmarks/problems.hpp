@@ -12,13 +12,14 @@
 
 namespace suture::benchmark {
 
-/// A packing of `cells` cells of `vertices` points, with adhesion on, and the configuration that made it.
+/// A packing of `cells` cells of `vertices` points, with adhesion on, and the configuration that made it. `rough`: compressed in
+/// few steps and hardly relaxed, as is enough for measuring kernels and makes many vertices affordable.
 struct Packed {
   Config config;
   TissueState state;
   double seconds = 0.0;  ///< that packing took
 };
-Packed packed_tissue(int cells, int vertices);
+Packed packed_tissue(int cells, int vertices, bool rough = false);
 
 /// Shifted copies of a packed disc, side by side without touching, `copies` in all.
 TissueState tiled(const TissueState& patch, int copies, double contact_distance);
