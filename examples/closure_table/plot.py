@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Wound area against time of the rows of examples/closure_table/run, beside the published simulations.
+"""Wound area against time of the rows of examples/closure_table/sweep.toml, beside the published simulations.
 
-    plot.py FOLDER PUBLISHED.csv PICTURE.png
-PUBLISHED.csv: columns curve,t_min,t_star,area_norm (Ton et al. 2023, Fig. 4a, digitised; its first sample is the
+    plot.py FOLDER data/published/fig4_wound_area.csv PICTURE.png
+The published table has the columns curve,t_min,t_star,area_norm (Ton et al. 2023, Fig. 4a, digitised; its first sample is the
 creation of the purse string). Needs python3-matplotlib.
 """
 import csv
@@ -31,10 +31,16 @@ def published(path, curve):
     return [float(r["t_star"]) - start for r in rows], [float(r["area_norm"]) for r in rows]
 
 
+def finished_runs(folder, case):
+    with open(folder / "sweep.csv", newline="") as stream:
+        return [folder / "runs" / row["run"] for row in csv.DictReader(stream)
+                if row["case"] == case and row["status"] in ("closed", "reached_t_end")]
+
+
 def draw(axis, folder, tissue, curve, published_file, end):
     for name, label, colour in ROWS:
-        for k, path in enumerate(sorted(pathlib.Path(folder).glob(f"{tissue}_{name}/seed*/wound.csv"))):
-            time, area = read(path, "time", "wound_area")
+        for k, run in enumerate(finished_runs(pathlib.Path(folder), f"{tissue}_{name}")):
+            time, area = read(run / "wound.csv", "time", "wound_area")
             axis.plot(time, [a / area[0] for a in area], color=colour, lw=0.9, alpha=0.75, label=label if k == 0 else None)
     time, area = published(published_file, curve)
     axis.plot(time, area, "k--", lw=1.8, label="published, mean of 25 seeds")

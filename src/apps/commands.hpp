@@ -24,8 +24,12 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 void add_check_command(CLI::App& program, CommandResult& result);
 void add_config_command(CLI::App& program, CommandResult& result);
 void add_converge_command(CLI::App& program, CommandResult& result);
+void add_export_command(CLI::App& program, CommandResult& result);
 void add_forces_command(CLI::App& program, CommandResult& result);
+void add_render_command(CLI::App& program, CommandResult& result);
 void add_run_command(CLI::App& program, CommandResult& result);
+void add_sweep_command(CLI::App& program, CommandResult& result);
 void add_validate_command(CLI::App& program, CommandResult& result);
+void add_view_command(CLI::App& program, CommandResult& result);
 
 }  // namespace suture

@@ -26,9 +26,13 @@ constexpr AddCommand commands[] = {
     add_check_command,
     add_config_command,
     add_converge_command,
+    add_export_command,
     add_forces_command,
+    add_render_command,
     add_run_command,
+    add_sweep_command,
     add_validate_command,
+    add_view_command,
 };
 
 bool looks_like_override(const std::string& argument) {

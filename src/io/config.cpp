@@ -159,6 +159,28 @@ class Resolver {
   Config config_;
 };
 
+std::vector<ConfigOverride> from_command_line(const std::vector<std::string>& overrides) {
+  std::vector<ConfigOverride> located;
+  for (const std::string& text : overrides) located.push_back({text, fmt::format("command line: --set {}", text)});
+  return located;
+}
+
+Config parse_located(std::string_view text, const std::string& name, const std::vector<ConfigOverride>& overrides) {
+  std::vector<ConfigDocument> documents{parse_document(text, name)};
+  for (const ConfigOverride& item : overrides) documents.push_back(parse_override(item.text, item.origin));
+  return Resolver{name, std::move(documents)}.resolve();
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError(fmt::format("{}: no such file", file.string()));
+  if (std::filesystem::is_directory(file, error))
+    throw InputError(fmt::format("{}: found a directory, allowed a TOML file", file.string()));
+  std::ifstream stream{file, std::ios::binary};
+  if (!stream) throw InputError(fmt::format("{}: the file cannot be read", file.string()));
+  return {std::istreambuf_iterator<char>{stream}, {}};
+}
+
 }  // namespace
 
 Config default_config(std::string_view preset) {
@@ -174,24 +196,21 @@ Config default_config(std::string_view preset) {
   config.purse_string.capture_law = CaptureLaw::slip;
   config.purse_string.event_handling = EventHandling::each_step;
   config.integrator.method = Method::euler;
+  config.output.adjacency = Adjacency::string;
+  config.run.closed_area = 0.0264;  // 2 pi (l0(0)/2)^2 of 30 vertices and shape 1.2, model.md section 9
   return config;
 }
 
 Config parse_config(std::string_view text, const std::string& name, const std::vector<std::string>& overrides) {
-  std::vector<ConfigDocument> documents{parse_document(text, name)};
-  for (const std::string& item : overrides) documents.push_back(parse_override(item));
-  return Resolver{name, std::move(documents)}.resolve();
+  return parse_located(text, name, from_command_line(overrides));
 }
 
 Config read_config(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw InputError(fmt::format("{}: no such file", file.string()));
-  if (std::filesystem::is_directory(file, error))
-    throw InputError(fmt::format("{}: found a directory, allowed a TOML file", file.string()));
-  std::ifstream stream{file, std::ios::binary};
-  if (!stream) throw InputError(fmt::format("{}: the file cannot be read", file.string()));
-  const std::string text{std::istreambuf_iterator<char>{stream}, {}};
-  return parse_config(text, file.string(), overrides);
+  return parse_located(text_of(file), file.string(), from_command_line(overrides));
+}
+
+Config resolve_config(const std::filesystem::path& file, const std::vector<ConfigOverride>& overrides) {
+  return parse_located(file.empty() ? "" : text_of(file), file.empty() ? "configuration" : file.string(), overrides);
 }
 
 std::vector<std::string> config_key_names() {
@@ -200,12 +219,23 @@ std::vector<std::string> config_key_names() {
   return names;
 }
 
-std::string config_value(const Config& config, std::string_view key) {
+namespace {
+
+const ConfigKey<Config>& known_key(std::string_view key) {
   const auto match = find_key(config_keys(), key);
   if (!match)
     throw InputError(fmt::format("found the unknown key '{}'{}", key, suggestion(key, key_names(config_keys()))));
+  return *match.key;
+}
+
+}  // namespace
+
+std::string canonical_config_key(std::string_view key) { return known_key(key).path(); }
+
+std::string config_value(const Config& config, std::string_view key) {
+  const ConfigKey<Config>& known = known_key(key);
   Config copy = config;
-  return value_text(*match.key, match.key->slot(copy));
+  return value_text(known, known.slot(copy));
 }
 
 }  // namespace suture

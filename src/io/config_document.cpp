@@ -127,8 +127,8 @@ ConfigDocument parse_document(std::string_view text, const std::string& name) {
   }
 }
 
-ConfigDocument parse_override(const std::string& text) {
-  const Place place{fmt::format("command line: --set {}", text), false};
+ConfigDocument parse_override(const std::string& text, const std::string& origin) {
+  const Place place{origin, false};
   const auto equals = text.find('=');
   const std::string path{trimmed(std::string_view{text}.substr(0, equals))};
   const std::string_view value = equals == std::string::npos ? "" : trimmed(std::string_view{text}.substr(equals + 1));

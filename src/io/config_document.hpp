@@ -35,7 +35,8 @@ struct ConfigDocument {
 /// Throws InputError where the text is not TOML.
 ConfigDocument parse_document(std::string_view text, const std::string& name);
 
-/// "section.key=value"; a value that is not TOML is taken as a bare word. Throws InputError without key or '='.
-ConfigDocument parse_override(const std::string& text);
+/// "section.key=value"; a value that is not TOML is taken as a bare word. `origin` is where messages say it comes from.
+/// Throws InputError without key or '='.
+ConfigDocument parse_override(const std::string& text, const std::string& origin);
 
 }  // namespace suture

@@ -35,6 +35,11 @@ constexpr std::array event_handlings{
     choice("grid", EventHandling::grid, "events are processed at multiples of event_interval"),
     choice("each_step", EventHandling::each_step, "after every integrator step, as the published simulations did"),
 };
+constexpr std::array adjacencies{
+    choice("outline", Adjacency::outline, "cells with a vertex within sqrt(a0/pi) of the wound's outline (printed)"),
+    choice("string", Adjacency::string,
+           "cells with their centre within sqrt(4 a0/pi) of a purse-string vertex (published scripts)"),
+};
 constexpr std::array methods{
     choice("cvode", Method::cvode, "implicit BDF of variable order with a minimising Newton solver"),
     choice("rkc2", Method::rkc2, "stabilised explicit Runge-Kutta-Chebyshev of order 2, adaptive"),
@@ -76,6 +81,10 @@ std::span<const Choice> choices_of<CaptureLaw>() {
 template <>
 std::span<const Choice> choices_of<EventHandling>() {
   return event_handlings;
+}
+template <>
+std::span<const Choice> choices_of<Adjacency>() {
+  return adjacencies;
 }
 template <>
 std::span<const Choice> choices_of<Method>() {

@@ -31,6 +31,15 @@ cairo_surface_t* make_surface(const std::filesystem::path& path, int width, int 
 
 Canvas::Canvas(std::filesystem::path path, int width, int height) : path_(std::move(path)) {
   surface_.reset(make_surface(path_, width, height, &bytes_));
+  prepare(width, height);
+}
+
+Canvas::Canvas(int width, int height) {
+  surface_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+  prepare(width, height);
+}
+
+void Canvas::prepare(int width, int height) {
   context_.reset(cairo_create(surface_.get()));
   if (const cairo_status_t status = cairo_status(context_.get()); status != CAIRO_STATUS_SUCCESS)
     throw InputError(fmt::format("a picture of {} x {} pixels: {}", width, height, cairo_status_to_string(status)));
@@ -50,6 +59,17 @@ void Canvas::finish() {
   if (status != CAIRO_STATUS_SUCCESS)
     throw FileError(fmt::format("{}: the picture failed: {}", path_.string(), cairo_status_to_string(status)));
   write_file_atomically(path_, bytes_);
+}
+
+std::vector<unsigned char> Canvas::pixels() const {
+  cairo_surface_flush(surface_.get());
+  const unsigned char* const data = cairo_image_surface_get_data(surface_.get());
+  const std::size_t stride = cairo_image_surface_get_stride(surface_.get());
+  const std::size_t row = 4 * static_cast<std::size_t>(cairo_image_surface_get_width(surface_.get()));
+  std::vector<unsigned char> bytes;
+  for (int y = 0; y < cairo_image_surface_get_height(surface_.get()); ++y)
+    bytes.insert(bytes.end(), data + y * stride, data + y * stride + row);
+  return bytes;
 }
 
 void set_colour(cairo_t* context, const Colour& colour, double opacity) {

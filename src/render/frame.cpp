@@ -20,6 +20,16 @@ CellField field_of(const TissueState& state, const FrameStyle& style) {
   return *style.field;
 }
 
+// What the colour bar is about.
+CellField shown_field(const TissueState& state, const FrameStyle& style) {
+  if (!style.segment_field) return field_of(state, style);
+  const SegmentField& field = *style.segment_field;
+  if (field.values.size() != static_cast<std::size_t>(state.tissue.vertex_count()))
+    throw InputError(fmt::format("the field '{}' has {} values for {} segments", field.quantity.name,
+                                 field.values.size(), state.tissue.vertex_count()));
+  return {field.quantity, field.values};
+}
+
 // Wide enough for the cells, their membranes and whatever acts on them.
 View view_of(std::span<const StripPanel> panels) {
   if (panels.front().style.view) return *panels.front().style.view;
@@ -63,10 +73,13 @@ std::string time_label(const StripPanel& panel) {
   return fmt::format("{:.1f} min  (t = {:.1f})", time * panel.style.scales.time_min(), time);
 }
 
+void require_cells(const TissueState& state) {
+  if (state.tissue.cell_count() == 0) throw InputError("there is no cell to draw");
+}
+
 void require_drawable(std::span<const StripPanel> panels) {
   if (panels.empty()) throw InputError("a strip needs at least one panel");
-  for (const StripPanel& panel : panels)
-    if (panel.state.tissue.cell_count() == 0) throw InputError("there is no cell to draw");
+  for (const StripPanel& panel : panels) require_cells(panel.state);
 }
 
 struct Layout {
@@ -130,7 +143,7 @@ void draw_footer(cairo_t* context, std::span<const StripPanel> panels, std::span
 void draw_figure(cairo_t* context, std::span<const StripPanel> panels, std::span<const PixelBox> boxes,
                  const Layout& layout) {
   std::vector<CellField> fields;
-  for (const StripPanel& panel : panels) fields.push_back(field_of(panel.state, panel.style));
+  for (const StripPanel& panel : panels) fields.push_back(shown_field(panel.state, panel.style));
   const ColourScale colours = colours_of(panels, fields);
   const View view = view_of(panels);
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -165,15 +178,30 @@ CellField shape_parameter_field(const TissueState& state) {
   return field;
 }
 
-void render_frame(const TissueState& state, const FrameStyle& style, const std::filesystem::path& path) {
+namespace {
+
+void draw_frame(const TissueState& state, const FrameStyle& style, const Canvas& canvas) {
   const StripPanel panel{state, style};
-  require_drawable({&panel, 1});
-  Canvas canvas(path, style.width, style.height);
   const Layout layout = layout_for(std::min(style.width, style.height), style.coloured);
   const PixelBox box{layout.left, layout.header, style.width - layout.left - layout.right,
                      style.height - layout.header - layout.footer};
   draw_figure(canvas.context(), {&panel, 1}, {&box, 1}, layout);
+}
+
+}  // namespace
+
+void render_frame(const TissueState& state, const FrameStyle& style, const std::filesystem::path& path) {
+  require_cells(state);
+  Canvas canvas(path, style.width, style.height);
+  draw_frame(state, style, canvas);
   canvas.finish();
+}
+
+Pixels render_pixels(const TissueState& state, const FrameStyle& style) {
+  require_cells(state);
+  const Canvas canvas(style.width, style.height);
+  draw_frame(state, style, canvas);
+  return {style.width, style.height, canvas.pixels()};
 }
 
 void render_strip(std::span<const StripPanel> panels, int panel_size, const std::filesystem::path& path) {

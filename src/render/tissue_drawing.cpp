@@ -8,6 +8,7 @@ namespace suture {
 namespace {
 
 constexpr Colour plain_cell{0.72, 0.85, 0.86};
+constexpr Colour pale_cell{0.93, 0.94, 0.95};
 constexpr Colour obstacle{0.45, 0.47, 0.52};
 constexpr double edge_share = 0.22;    // of the membrane width that is drawn as the dark edge of the cell
 constexpr double ring_share = 0.45;    // width of the purse string / membrane width
@@ -31,19 +32,21 @@ void trace(cairo_t* context, const Outline& points) {
   cairo_close_path(context);
 }
 
-// A closed curve through every vertex, tangent to the chord of its neighbours. Handles are a third of their own
-// segment, so very unequal segments (plastic membranes) cannot make it overshoot.
-void trace_smooth(cairo_t* context, const Outline& points) {
+// Part i, from point i to the next, of a closed curve through every point, tangent to the chord of its neighbours.
+// Handles are a third of their own segment, so very unequal segments (plastic membranes) cannot make it overshoot.
+void continue_curve(cairo_t* context, const Outline& points, std::size_t i) {
   const std::size_t n = points.size();
-  const auto tangent = [&](std::size_t i) { return unit_vector(points[(i + 1) % n] - points[(i + n - 1) % n]); };
+  const auto tangent = [&](std::size_t k) { return unit_vector(points[(k + 1) % n] - points[(k + n - 1) % n]); };
+  const Point &from = points[i], &to = points[(i + 1) % n];
+  const double handle = norm(to - from) / 3.0;
+  const Point first = from + handle * tangent(i), second = to - handle * tangent((i + 1) % n);
+  cairo_curve_to(context, first.x, first.y, second.x, second.y, to.x, to.y);
+}
+
+void trace_smooth(cairo_t* context, const Outline& points) {
   cairo_new_path(context);
   cairo_move_to(context, points[0].x, points[0].y);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point &from = points[i], &to = points[(i + 1) % n];
-    const double handle = norm(to - from) / 3.0;
-    const Point first = from + handle * tangent(i), second = to - handle * tangent((i + 1) % n);
-    cairo_curve_to(context, first.x, first.y, second.x, second.y, to.x, to.y);
-  }
+  for (std::size_t i = 0; i < points.size(); ++i) continue_curve(context, points, i);
   cairo_close_path(context);
 }
 
@@ -53,7 +56,10 @@ void draw_cells(cairo_t* context, const TissueState& state, const FrameStyle& st
   const double width = membrane_width(state, style) * projection.scale;
   const double edge = std::max(edge_share * width, smallest_line);
   const StateView view = state.view();
-  const auto body = [&](int cell) { return style.coloured ? colours.at(field.values[cell]) : plain_cell; };
+  const auto body = [&](int cell) {
+    if (style.segment_field) return pale_cell;
+    return style.coloured ? colours.at(field.values[cell]) : plain_cell;
+  };
   for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
     trace_smooth(context, cell_outline(state.tissue, view, cell, projection));
     set_colour(context, mix(body(cell), ink, 0.85));
@@ -67,6 +73,23 @@ void draw_cells(cairo_t* context, const TissueState& state, const FrameStyle& st
     set_colour(context, mix(body(cell), {1.0, 1.0, 1.0}, 0.45));
     cairo_set_line_width(context, std::max(width - edge, smallest_line));
     cairo_stroke(context);
+  }
+}
+
+// Every segment in the colour of its value, as wide as the membrane within its dark edge.
+void draw_segments(cairo_t* context, const TissueState& state, const FrameStyle& style, const ColourScale& colours,
+                   const Projection& projection) {
+  const double width = membrane_width(state, style) * projection.scale;
+  cairo_set_line_width(context, std::max(width - std::max(edge_share * width, smallest_line), 2.0 * smallest_line));
+  const StateView view = state.view();
+  for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
+    const Outline points = cell_outline(state.tissue, view, cell, projection);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      set_colour(context, colours.at(style.segment_field->values[state.tissue.first_vertex(cell) + i]));
+      cairo_move_to(context, points[i].x, points[i].y);
+      continue_curve(context, points, i);
+      cairo_stroke(context);
+    }
   }
 }
 
@@ -184,6 +207,7 @@ void draw_tissue(cairo_t* context, const TissueState& state, const FrameStyle& s
   const double width = membrane_width(state, style) * projection.scale;
   draw_wound(context, style, projection);
   draw_cells(context, state, style, field, colours, projection);
+  if (style.segment_field) draw_segments(context, state, style, colours, projection);
   draw_plates(context, style, width, projection);
   draw_ghosts(context, style, width, projection);
   draw_purse_string(context, state, width, projection);

@@ -24,6 +24,15 @@ double shortest_segment(const TissueState& state) {
   return shortest;
 }
 
+std::vector<int> cells_beside(const ClosureSample& s, Adjacency rule) {
+  if (rule == Adjacency::outline)
+    return s.wound ? adjacent_cells(s.state.tissue, s.state.view(), s.wound->outline) : std::vector<int>();
+  const StateView view = s.state.view();
+  std::vector<Point> string;
+  for (std::size_t i = s.state.tissue.vertex_count(); i < view.x.size(); ++i) string.push_back({view.x[i], view.y[i]});
+  return adjacent_cells_published(s.state.tissue, view, string);
+}
+
 double fraction_of(const std::optional<Wound>& wound, double largest) {
   return wound && largest > 0.0 ? wound->area / largest : 0.0;
 }
@@ -35,8 +44,7 @@ RunRecorder::RunRecorder(const RunRequest& request, TrajectoryWriter& writer)
 
 WoundSample RunRecorder::measure(const ClosureSample& s) {
   const std::vector<CellShape> shapes = cell_shapes(s.state.tissue, s.state.view());
-  std::vector<int> adjacent;
-  if (s.wound) adjacent = adjacent_cells(s.state.tissue, s.state.view(), s.wound->outline);
+  const std::vector<int> adjacent = cells_beside(s, request_.config.output.adjacency);
   healed_shape_ = healed_shape(shapes, adjacent);
   WoundSample sample;
   sample.time = s.time;

@@ -96,6 +96,8 @@ std::span<const Choice> choices_of<CaptureLaw>();
 template <>
 std::span<const Choice> choices_of<EventHandling>();
 template <>
+std::span<const Choice> choices_of<Adjacency>();
+template <>
 std::span<const Choice> choices_of<Method>();
 template <>
 std::span<const Choice> choices_of<Protocol>();

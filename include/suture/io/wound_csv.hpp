@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "suture/io/units.hpp"
 
@@ -28,5 +29,13 @@ std::string to_csv(std::span<const WoundSample> samples, const UnitScales& scale
 
 /// Writes the file so that either the old or the new one is there, whole. Throws FileError.
 void write_wound_csv(std::span<const WoundSample> samples, const UnitScales& scales, const std::filesystem::path& path);
+
+/// The columns of a wound.csv that a time series consists of, each as long as the file has rows; NaN where a field is empty.
+struct WoundColumns {
+  std::vector<double> time, wound_area, mean_shape;
+};
+
+/// Throws InputError when the file is not a whole wound.csv.
+WoundColumns read_wound_csv(const std::filesystem::path& path);
 
 }  // namespace suture

@@ -39,6 +39,12 @@ enum class EventHandling {
   each_step,  ///< after every step of the integrator (published simulations)
 };
 
+/// Which cells count as adjacent to the wound when shapes are averaged.
+enum class Adjacency {
+  outline,  ///< with a vertex within sqrt(a0/pi) of the wound's outline (printed)
+  string,   ///< with the centre within sqrt(4 a0/pi) of a purse-string vertex (published scripts)
+};
+
 /// Time integrators (suture/integrate/integrator.hpp).
 enum class Method { cvode, rkc2, automatic, arkode, adams, euler, verlet, rk4 };
 
@@ -194,6 +200,7 @@ struct IntegratorParameters {
 struct OutputParameters {
   double interval = 0.5;        ///< of wound.csv samples
   double frame_interval = 5.0;  ///< of stored configurations
+  Adjacency adjacency = Adjacency::outline; ///< of the mean shape and the healed shape
   int pictures = 6;             ///< frames drawn along the run
   bool operator==(const OutputParameters&) const = default;
 };

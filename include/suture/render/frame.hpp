@@ -31,11 +31,18 @@ struct ForceArrow {
   Point point, vector;
 };
 
+/// One number per segment, drawn on the membranes.
+struct SegmentField {
+  Quantity quantity;
+  std::vector<double> values;
+};
+
 struct FrameStyle {
   UnitScales scales;  ///< for the scale bar and the time label
   int width = 1000;   ///< pixels, of render_frame
   int height = 1000;
   std::optional<CellField> field;  ///< that colours the cells; unset: the shape parameter p^2/(4 pi a)
+  std::optional<SegmentField> segment_field;  ///< colours the membranes instead, over pale cells
   std::optional<double> field_minimum, field_maximum;  ///< of the colour bar; unset: from the data
   bool coloured = true;                                ///< false: all cells in one colour, no colour bar
   std::optional<double> membrane_width;                ///< s; unset: the mean initial rest length
@@ -52,6 +59,15 @@ struct FrameStyle {
 /// Draws one frame of style.width x style.height pixels (SVG, PDF: points). Throws InputError for an unknown ending,
 /// an empty tissue or a field of the wrong length, FileError when the file cannot be written.
 void render_frame(const TissueState& state, const FrameStyle& style, const std::filesystem::path& path);
+
+/// A picture in memory: rows from the top, each pixel the bytes blue, green, red, unused.
+struct Pixels {
+  int width = 0, height = 0;
+  std::vector<unsigned char> bytes;
+};
+
+/// The same picture as render_frame. Throws InputError as it does.
+Pixels render_pixels(const TissueState& state, const FrameStyle& style);
 
 struct StripPanel {
   TissueState state;

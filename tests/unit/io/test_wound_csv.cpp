@@ -1,10 +1,12 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <sstream>
 #include <vector>
 
 #include "support/file_bytes.hpp"
 #include "support/program.hpp"
+#include "suture/errors.hpp"
 #include "suture/io/trajectory_check.hpp"
 #include "suture/io/wound_csv.hpp"
 
@@ -77,4 +79,24 @@ TEST_CASE("wound.csv can be checked", "[unit]") {
   CHECK(check_file(path).verdict == FileVerdict::invalid);
   write_bytes(path, "a,b\n1,2\n");
   CHECK(check_file(path).verdict == FileVerdict::unreadable);
+}
+
+TEST_CASE("the series of a wound.csv read back to the same bits, and a damaged file is refused", "[io]") {
+  const TemporaryDirectory directory;
+  const auto file = directory.path() / "wound.csv";
+  write_wound_csv(samples, scales, file);
+  const WoundColumns columns = read_wound_csv(file);
+  REQUIRE(columns.time.size() == samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    CHECK(columns.time[i] == samples[i].time);
+    if (samples[i].wound_area) CHECK(columns.wound_area[i] == *samples[i].wound_area);
+    CHECK(std::isnan(columns.wound_area[i]) == !samples[i].wound_area.has_value());
+    CHECK(std::isnan(columns.mean_shape[i]) == !samples[i].mean_shape.has_value());
+  }
+  CHECK(columns.mean_shape[0] == 1.0 / 3.0);
+  const std::string whole = read_bytes(file);
+  write_bytes(file, whole.substr(0, whole.size() - 20));
+  CHECK_THROWS_AS(read_wound_csv(file), InputError);
+  write_bytes(file, "time,area\n1,2\n");
+  CHECK_THROWS_AS(read_wound_csv(file), InputError);
 }
