@@ -23,6 +23,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
 void add_check_command(CLI::App& program, CommandResult& result);
 void add_config_command(CLI::App& program, CommandResult& result);
+void add_converge_command(CLI::App& program, CommandResult& result);
 void add_export_command(CLI::App& program, CommandResult& result);
 void add_forces_command(CLI::App& program, CommandResult& result);
 void add_recover_command(CLI::App& program, CommandResult& result);

@@ -25,6 +25,7 @@ using AddCommand = void (*)(CLI::App&, CommandResult&);
 constexpr AddCommand commands[] = {
     add_check_command,
     add_config_command,
+    add_converge_command,
     add_export_command,
     add_forces_command,
     add_recover_command,

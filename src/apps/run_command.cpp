@@ -74,6 +74,10 @@ bool is_to_be_run(const Options& options) {
   return !(options.resume && content == DirectoryContent::finished);
 }
 
+std::string automatic_choice(const Statistics& solver) {
+  return fmt::format("method auto: {} of {} steps with rkc2, the others with cvode (preparation included)\n", solver.explicit_steps, solver.steps);
+}
+
 void run(const Options& options, CommandResult& result) {
   const Config config = read_config(options.file, options.overrides);
   const std::optional<double> max_wall =
@@ -92,6 +96,7 @@ void run(const Options& options, CommandResult& result) {
     outcome = run_protocol(request);
   }
   if (!options.quiet) std::cout << fmt::format("{}; results in {}\n", verdict(outcome), options.directory);
+  if (!options.quiet && config.integrator.method == Method::automatic) std::cout << automatic_choice(outcome.summary.solver);
   if (outcome.summary.status == RunStatus::failed) throw NumericalError(outcome.failure + fmt::format("; what was computed is in {}", options.directory));
   if (outcome.summary.status == RunStatus::stopped) result.exit_code = ExitCode::stopped_early;
 }

@@ -188,6 +188,7 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
 }
 
 double CvodeIntegrator::step(double limit) {
+  if (!(limit > time_)) return time_;
   const double before = time_;
   if (limit <= before) return time_;
   check(CVodeSetMinStep(cvode_, time_resolution * std::abs(before)), "CVodeSetMinStep");

@@ -29,6 +29,7 @@ void ExplicitIntegrator::accept(double h) {
   time_ += h;
   last_step_ = h;
   ++counts_.steps;
+  ++counts_.explicit_steps;
 }
 
 /// One-step methods have no past to keep: only the state and its rate.

@@ -9,6 +9,7 @@ namespace suture {
 Statistics& Statistics::operator+=(const Statistics& o) {
   rate_evaluations += o.rate_evaluations;
   steps += o.steps;
+  explicit_steps += o.explicit_steps;
   newton_iterations += o.newton_iterations;
   linear_iterations += o.linear_iterations;
   hessian_builds += o.hessian_builds;
@@ -29,6 +30,8 @@ IntegratorOptions integrator_options(const Config& config, double rest_length) {
   options.maximum_step = std::isfinite(p.maximum_step) ? p.maximum_step : 0.0;
   options.maximum_order = p.maximum_order;
   options.keep_history = p.keep_history;
+  options.vertex_mass = p.vertex_mass;
+  options.switch_stages = p.switch_stages;
   options.largest_move = 0.5 * rest_length;
   return options;
 }
@@ -38,12 +41,16 @@ std::unique_ptr<Integrator> make_integrator(OdeSystem& system, const IntegratorO
   switch (options.method) {
     case Method::rkc2: return make_rkc2(system, options, t, y);
     case Method::euler: return make_euler(system, options, t, y);
+    case Method::verlet: return make_verlet(system, options, t, y);
     case Method::rk4: return make_rk4(system, options, t, y);
+    case Method::arkode: return make_arkode(system, options, t, y);
+    case Method::adams: return make_adams(system, options, t, y);
+    case Method::automatic:
     case Method::cvode: break;
   }
   auto* flow = dynamic_cast<GradientFlowSystem*>(&system);
-  if (flow == nullptr) throw InputError("integrator.method \"cvode\" needs a gradient flow");
-  return make_cvode(*flow, options, t, y);
+  if (flow == nullptr) throw InputError("integrator.method \"cvode\" and \"auto\" need a gradient flow");
+  return options.method == Method::automatic ? make_automatic(*flow, options, t, y) : make_cvode(*flow, options, t, y);
 }
 
 }  // namespace suture

@@ -129,6 +129,7 @@ double Rkc2::error_norm(double h) {
 }
 
 double Rkc2::step(double limit) {
+  if (!(limit > time_)) return time_;
   if (radius_ == 0.0 || steps_since_radius_ >= 25) estimate_spectral_radius();
   if (h_ == 0.0) h_ = first_step();
   bool refused = false;

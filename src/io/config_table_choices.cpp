@@ -44,7 +44,12 @@ constexpr std::array methods{
     choice("cvode", Method::cvode, "implicit BDF of variable order with a minimising Newton solver"),
     choice("rkc2", Method::rkc2, "stabilised explicit Runge-Kutta-Chebyshev of order 2, adaptive"),
     choice("rkc", Method::rkc2),
+    choice("auto", Method::automatic, "rkc2, and cvode where the steps of rkc2 take many stages"),
+    choice("automatic", Method::automatic),
+    choice("arkode", Method::arkode, "explicit Runge-Kutta of order 3 (Bogacki-Shampine), adaptive"),
+    choice("adams", Method::adams, "Adams formulas of variable order with fixed-point iteration, adaptive"),
     choice("euler", Method::euler, "explicit Euler with a fixed step (published simulations)"),
+    choice("verlet", Method::verlet, "modified velocity Verlet with a fixed step; gives vertices a mass"),
     choice("rk4", Method::rk4, "classical Runge-Kutta of order 4 with a fixed step"),
 };
 constexpr std::array protocols{

@@ -61,6 +61,7 @@ void add_cell(Json& json, const CellOutcome& cell, double area) {
 Json solver_counts(const Statistics& solver) {
   return {{"rate_evaluations", solver.rate_evaluations},
           {"steps", solver.steps},
+          {"explicit_steps", solver.explicit_steps},
           {"newton_iterations", solver.newton_iterations},
           {"linear_iterations", solver.linear_iterations},
           {"error_test_failures", solver.error_test_failures},

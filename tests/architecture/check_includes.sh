@@ -2,7 +2,7 @@
 # Fails when a file includes a room to its right in the order below, or when a library that only one room may see leaks.
 set -eu
 cd "$(dirname "$0")/../.."
-rooms="geometry model kernels neighbors physics ode integrate measure setup io replay render view export simulate sweep apps"
+rooms="geometry model kernels neighbors physics ode integrate measure setup io replay render view export simulate converge sweep apps"
 
 rank() {
   position=0
@@ -35,7 +35,7 @@ only_in() { # PATTERN ALLOWED-PATH-PATTERN
     failed=1
   done
 }
-only_in '(cvode|sundials|nvector)' '^src/integrate/(cvode_[a-z]+|fused_nvector)'
+only_in '(cvode|arkode|sundials|sunnonlinsol|nvector)' '^src/integrate/(cvode_[a-z]+|adams_integrator|arkode_integrator|sundials_problem|fused_nvector)'
 only_in 'hdf5' '^src/io/hdf5_(calls|datasets|file)\.'
 only_in 'toml\+\+' '^src/io/(config_document|sweep_file)\.cpp'
 only_in 'cairo' '^src/render/'

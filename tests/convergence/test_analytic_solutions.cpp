@@ -24,6 +24,8 @@ struct MethodCase {
 std::vector<MethodCase> accurate_methods() {
   return {{"cvode", with_tolerance(Method::cvode, 1e-8), 3e-6},
           {"rkc2", with_tolerance(Method::rkc2, 1e-8), 5e-6},
+          {"arkode", with_tolerance(Method::arkode, 1e-8), 5e-6},
+          {"adams", with_tolerance(Method::adams, 1e-8), 5e-6},
           {"rk4", with_step(Method::rk4, 0.01), 1e-8}};
 }
 

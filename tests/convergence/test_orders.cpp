@@ -51,6 +51,66 @@ TEST_CASE("Euler, RKC2 and RK4 converge at orders 1, 2 and 4", "[convergence]") 
   }
 }
 
+TEST_CASE("modified velocity Verlet converges at order 2 to the motion with mass, and that to the overdamped motion", "[convergence]") {
+  SmoothProblem problem;
+  const auto with_mass = [&](double mass, double h) {
+    IntegratorOptions options = with_step(Method::verlet, h);
+    options.vertex_mass = mass;
+    return integrate(problem.ode, options, 0.0, problem.state.values, end);
+  };
+  const auto inertial = with_mass(1.0, 1.0 / 8192);
+  std::vector<double> errors, inertia;
+  for (const double h : {1.0 / 64, 1.0 / 128, 1.0 / 256, 1.0 / 512}) errors.push_back(rms_difference(with_mass(1.0, h), inertial));
+  CAPTURE(errors[0], errors[1], errors[2], errors[3]);
+  CHECK(errors[0] > 1e-8);
+  CHECK(median_order(errors) == Approx(2.0).margin(0.25));
+  // Small masses only: the inertial correction is of first order in m once m/b is short beside every decay time.
+  for (const double mass : {4e-3, 2e-3, 1e-3}) inertia.push_back(rms_difference(with_mass(mass, 1.0 / 16384), problem.reference));
+  CAPTURE(inertia[0], inertia[1], inertia[2]);
+  CHECK(rms_difference(inertial, problem.reference) > 10.0 * inertia[0]);
+  CHECK(median_order(inertia) == Approx(1.0).margin(0.25));
+}
+
+TEST_CASE("the errors of the adaptive rivals fall with their tolerance", "[convergence]") {
+  SmoothProblem problem;
+  for (const Method method : {Method::arkode, Method::adams, Method::automatic}) {
+    std::vector<double> errors;
+    for (const double tolerance : {1e-5, 1e-6, 1e-7, 1e-8}) {
+      const auto y = integrate(problem.ode, with_tolerance(method, tolerance), 0.0, problem.state.values, end);
+      errors.push_back(rms_difference(y, problem.reference));
+    }
+    CAPTURE(static_cast<int>(method), errors[0], errors[1], errors[2], errors[3]);
+    CHECK(errors[0] < 3e-4);
+    CHECK(errors[3] < 3e-7);
+    CHECK(errors[3] < 0.05 * errors[0]);
+  }
+}
+
+TEST_CASE("auto changes to CVODE where RKC2's steps take many stages, and only there", "[convergence]") {
+  // The wavy cell's spectral radius is about 100: steps of 1e-3 take two stages, steps of 10 hundreds.
+  SmoothProblem problem;
+  for (const double longest : {1e-3, 10.0}) {
+    IntegratorOptions options = with_tolerance(Method::automatic, 1e-4);
+    options.maximum_step = longest;
+    const auto integrator = make_integrator(problem.ode, options, 0.0, problem.state.values);
+    std::vector<double> before(problem.state.values), between(before.size());
+    double largest_jump = 0.0;
+    while (integrator->time() < (longest < 1.0 ? 0.1 : 200.0)) {
+      integrator->step(1e9);
+      integrator->interpolate(integrator->time() - integrator->last_step(), between);
+      largest_jump = std::max(largest_jump, largest_difference(between, before));
+      before.assign(integrator->state().begin(), integrator->state().end());
+    }
+    const Statistics statistics = integrator->statistics();
+    CAPTURE(longest, statistics.steps, statistics.explicit_steps);
+    CHECK(largest_jump < 5e-3);  // a step begins where the last one ended, also across the change
+    if (longest < 1.0)
+      CHECK(statistics.explicit_steps == statistics.steps);
+    else
+      CHECK((statistics.explicit_steps >= 8 && statistics.explicit_steps < statistics.steps && statistics.newton_iterations > 0));
+  }
+}
+
 TEST_CASE("interpolation between steps keeps the accuracy of the method", "[convergence]") {
   SmoothProblem problem;
   struct Row {

@@ -10,6 +10,9 @@ using namespace suture::test;
 
 namespace {
 
+constexpr Method every_method[] = {Method::cvode, Method::rkc2,   Method::automatic, Method::arkode, Method::adams,
+                                   Method::euler, Method::verlet, Method::rk4};
+
 TissueState relaxing_cell() {
   return wavy_cell(
       16, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
@@ -35,12 +38,14 @@ TEST_CASE("the error of a smooth relaxation follows the tolerance", "[convergenc
 
 TEST_CASE("a step never passes its limit and can end on it exactly", "[convergence]") {
   const TissueState state = relaxing_cell();
-  for (const Method method : {Method::cvode, Method::rkc2, Method::euler, Method::rk4}) {
+  for (const Method method : every_method) {
     TissueOde ode(state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {});
     IntegratorOptions options = with_tolerance(method, 1e-5);
     options.time_step = 1e-3;
     const auto integrator = make_integrator(ode, options, 1.0, state.values);
     CAPTURE(static_cast<int>(method));
+    CHECK(integrator->step(1.0) == 1.0);  // nothing to do, and nothing done
+    CHECK(integrator->statistics().steps == 0);
     for (const double limit : {1.0 + 1e-7, 1.0123456789, 1.1, 1.1 + 1e-9, 1.3}) {
       int steps = 0;
       while (integrator->time() < limit) {
@@ -52,13 +57,14 @@ TEST_CASE("a step never passes its limit and can end on it exactly", "[convergen
         REQUIRE(++steps < 10000);
       }
       CHECK(integrator->time() == limit);
+      CHECK(integrator->step(limit) == limit);
     }
   }
 }
 
 TEST_CASE("without a limit the integrator chooses its steps", "[convergence]") {
   const TissueState state = relaxing_cell();
-  for (const Method method : {Method::cvode, Method::rkc2, Method::euler, Method::rk4}) {
+  for (const Method method : every_method) {
     TissueOde ode(state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {});
     IntegratorOptions options = with_tolerance(method, 1e-5);
     options.time_step = 1e-3;

@@ -17,6 +17,7 @@ namespace suture {
 struct Statistics {
   std::int64_t rate_evaluations = 0;
   std::int64_t steps = 0;
+  std::int64_t explicit_steps = 0;  ///< of `steps`, those of explicit methods: what "auto" chose
   std::int64_t newton_iterations = 0;
   std::int64_t linear_iterations = 0;
   std::int64_t hessian_builds = 0;
@@ -34,6 +35,8 @@ struct IntegratorOptions {
   double time_step = 0.0;              ///< fixed-step methods
   double initial_step = 0.0;           ///< 0: chosen
   double maximum_step = 0.0;           ///< 0: none
+  double vertex_mass = 1.0;            ///< velocity Verlet
+  double switch_stages = 12.0;         ///< automatic: rates per step of RKC2 from which CVODE takes over
   double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
   int maximum_order = 5;
   bool keep_history = true;            ///< a multistep method carries its past over an event
@@ -43,7 +46,8 @@ struct IntegratorOptions {
 class Integrator {
  public:
   virtual ~Integrator() = default;
-  /// Takes one internal step, at most to `limit`; returns the new time. state() is y there.
+  /// Takes one internal step, at most to `limit`; returns the new time. state() is y there. A limit that is not later
+  /// than time() leaves everything as it is.
   virtual double step(double limit) = 0;
   virtual double time() const = 0;
   virtual std::span<const double> state() const = 0;

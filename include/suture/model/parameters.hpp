@@ -45,7 +45,8 @@ enum class Adjacency {
   string,   ///< with the centre within sqrt(4 a0/pi) of a purse-string vertex (published scripts)
 };
 
-enum class Method { cvode, rkc2, euler, rk4 };
+/// Time integrators (suture/integrate/integrator.hpp).
+enum class Method { cvode, rkc2, automatic, arkode, adams, euler, verlet, rk4 };
 
 /// What a run does.
 enum class Protocol {
@@ -189,6 +190,8 @@ struct IntegratorParameters {
   bool keep_history = true;          ///< carry the multistep history over events
   double maximum_step = std::numeric_limits<double>::infinity();
   std::optional<double> time_step;   ///< fixed-step methods; unset: 0.01 l0/sqrt(k_a)
+  double vertex_mass = 1.0;          ///< of method verlet; the overdamped motion has none
+  double switch_stages = 12.0;       ///< method auto: rates per step of RKC2 from which CVODE takes over
   double skin = 1.0;                 ///< Verlet-list skin, in units of l0(0)
   int threads = 1;
   bool operator==(const IntegratorParameters&) const = default;

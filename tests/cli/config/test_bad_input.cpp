@@ -21,6 +21,7 @@ struct BadConfig {
 const std::vector<std::vector<std::string>> reading_commands{
     {"validate", "{config}"},
     {"run", "{config}", "--out", "out"},
+    {"converge", "{config}", "--out", "out"},
 };
 
 const std::vector<BadConfig> bad_configs{

@@ -13,12 +13,14 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr Method all_methods[] = {Method::cvode, Method::rkc2, Method::euler, Method::rk4};
+constexpr Method all_methods[] = {Method::cvode, Method::rkc2,   Method::automatic, Method::arkode, Method::adams,
+                                  Method::euler, Method::verlet, Method::rk4};
 
 IntegratorOptions toy_options(Method method) {
   IntegratorOptions options = with_tolerance(method, 1e-4);
   options.time_step = 0.01;
   options.largest_move = 10.0;
+  options.vertex_mass = 0.01;  // verlet: nearly overdamped
   return options;
 }
 

@@ -68,7 +68,7 @@ TEST_CASE("summary.json has exactly the keys other tools rely on", "[unit]") {
                                                "solver",
                                                "wall_s"});
   CHECK(keys(summary["events"]) == std::set<std::string>{"yield", "capture", "exchange"});
-  CHECK(keys(summary["solver"]) == std::set<std::string>{"rate_evaluations", "steps", "newton_iterations",
+  CHECK(keys(summary["solver"]) == std::set<std::string>{"rate_evaluations", "steps", "explicit_steps", "newton_iterations",
                                                          "linear_iterations", "error_test_failures",
                                                          "convergence_failures", "restarts"});
   CHECK(keys(summary["wall_s"]) == std::set<std::string>{"packing", "closure"});

@@ -1,0 +1,21 @@
+// The groups of measurements; main.cpp runs those that are asked for.
+#pragma once
+
+#include "problems.hpp"
+#include "report.hpp"
+
+namespace suture::benchmark {
+
+/// Rate, linearisation, product, preconditioner and list rebuild, per vertex; the ladders of n_v and N.
+void measure_kernels(const Settings& settings, Report& report);
+/// Packing; closures of embryo and wing disc by several methods.
+void measure_packing(const Settings& settings, Report& report);
+void measure_closures(const Settings& settings, Report& report, const Packed& wounded);
+/// Smooth runs (ring on, no events): ladders of k_a and tau with counts.
+void measure_ladders(const Settings& settings, Report& report, const Packed& wounded);
+/// Cases B, C and D of the design: methods against a reference.
+void measure_cases(const Settings& settings, Report& report, const Packed& wounded);
+/// Actual over requested error on the grid of k_a and tau.
+void measure_tolerance_grid(const Settings& settings, Report& report, const Packed& wounded);
+
+}  // namespace suture::benchmark

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <cmath>
+
+#include "groups.hpp"
+#include "suture/errors.hpp"
+
+namespace suture::benchmark {
+
+namespace {
+
+constexpr double gamma_of_interest = 0.1;  // h/l_10 of a step in a quiet part of a closure
+
+void require(Evaluation evaluation, const TissueOde& ode) {
+  if (evaluation != Evaluation::ok) throw NumericalError("the benchmark's state was refused: " + ode.refusal());
+}
+
+/// Alternates between two states farther apart than the skin allows: every evaluation rebuilds the list.
+double rebuild_seconds(TissueOde& ode, const std::vector<double>& y, double skin, double rate, int repeats) {
+  std::vector<double> moved(y), out(y.size());
+  for (int k = 0; k < ode.position_count(); ++k) moved[k] += skin;  // a translation: same forces, stale list
+  bool there = false;
+  const long before = ode.list_rebuilds();
+  long calls = 0;
+  const Timing both = time_body(repeats, [&] {
+    there = !there;
+    ++calls;
+    require(ode.rate(0.0, there ? moved : y, out), ode);
+  });
+  if (ode.list_rebuilds() - before < calls - 1) throw NumericalError("the list was not rebuilt at every evaluation");
+  return both.median - rate;
+}
+
+void measure_tissue(const char* name, const Config& config, const TissueState& state, int repeats, Report& report) {
+  const std::unique_ptr<TissueOde> ode = make_ode(config, state);
+  const auto n = static_cast<std::size_t>(ode->position_count());
+  std::vector<double> out(state.values.size()), residual(n), direction(n), product(n);
+  for (std::size_t k = 0; k < n; ++k) direction[k] = std::sin(0.7 * static_cast<double>(k));
+  require(ode->rate(0.0, state.values, out), *ode);
+  const auto per_vertex = 1e9 / state.tissue.vertex_count();
+  const double rate = time_body(repeats, [&] { require(ode->rate(0.0, state.values, out), *ode); }).median;
+  ode->begin_implicit_step(0.0, gamma_of_interest, state.values);
+  const std::span<const double> q = std::span(state.values).first(n);
+  require(ode->residual(q, residual), *ode);
+  Measurement m{"kernels", name, {}, {}};
+  m.parameters = {{"cells", state.tissue.cell_count()}, {"n_v", state.tissue.vertex_count(0)}, {"vertices", state.tissue.vertex_count()}};
+  const auto add = [&](const char* what, double seconds) { m.values.emplace_back(what, seconds * per_vertex); };
+  add("rate_ns", rate);
+  add("residual_ns", time_body(repeats, [&] { require(ode->residual(q, residual), *ode); }).median);
+  add("linearise_ns", time_body(repeats, [&] { ode->linearise(); }).median);
+  add("product_ns", time_body(repeats, [&] { ode->product(direction, product); }).median);
+  add("preconditioner_setup_ns", time_body(repeats, [&] { ode->set_up_preconditioner(); }).median);
+  add("precondition_ns", time_body(repeats, [&] { ode->precondition(residual, product); }).median);
+  const double skin = config.integrator.skin * state.tissue.mean_initial_rest_length();
+  add("list_rebuild_ns", rebuild_seconds(*ode, state.values, skin, rate, repeats));
+  report.add(std::move(m));
+}
+
+}  // namespace
+
+void measure_kernels(const Settings& settings, Report& report) {
+  const std::vector<int> ladder = settings.smoke ? std::vector{15} : std::vector{15, 30, 60, 120, 240};
+  for (const int vertices : ladder) {  // 16 cells: full vector lanes
+    const Packed packed = packed_tissue(16, vertices, true);
+    measure_tissue("n_v ladder", packed.config, packed.state, settings.repeats, report);
+  }
+  const Packed patch = packed_tissue(settings.smoke ? 6 : 45, settings.smoke ? 12 : 30, true);
+  std::vector<int> cells = settings.smoke ? std::vector{12} : std::vector{45, 450, 4500, 45000};
+  if (settings.long_runs) cells.push_back(99990);
+  for (const int count : cells) {
+    const TissueState state = tiled(patch.state, count / patch.state.tissue.cell_count(), *patch.config.contact.distance);
+    measure_tissue("N ladder (tiles)", patch.config, state, settings.repeats, report);
+  }
+}
+
+}  // namespace suture::benchmark

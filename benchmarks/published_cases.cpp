@@ -1,0 +1,95 @@
+// Smooth problems with a known answer: cases B, C and D of the design study (45 cells x 30 points, purse string on, quadratic
+// law, no events), and the grid on which the error must follow the tolerance.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "groups.hpp"
+
+namespace suture::benchmark {
+
+namespace {
+
+struct Case {
+  const char* name;
+  double area_stiffness, tau, horizon;
+};
+
+struct Solver {
+  const char* name;
+  Method method;
+  double value;  ///< tolerance in l0, or step
+  bool fixed;
+};
+
+constexpr Solver solvers[] = {
+    {"euler 0.004", Method::euler, 0.004, true},  {"euler 0.002", Method::euler, 0.002, true},
+    {"verlet 0.0125", Method::verlet, 0.0125, true}, {"rk4 0.005", Method::rk4, 0.005, true},
+    {"rkc2 1e-4", Method::rkc2, 1e-4, false},     {"rkc2 1e-6", Method::rkc2, 1e-6, false},
+    {"rkc2 1e-7", Method::rkc2, 1e-7, false},     {"arkode 1e-4", Method::arkode, 1e-4, false},
+    {"adams 1e-4", Method::adams, 1e-4, false},   {"cvode 1e-4", Method::cvode, 1e-4, false},
+    {"cvode 1e-5", Method::cvode, 1e-5, false},   {"cvode 1e-6", Method::cvode, 1e-6, false},
+};
+
+struct Reference {
+  std::vector<double> y;
+  PositionErrors uncertainty;  ///< difference of two methods
+};
+
+Reference make_reference(const Packed& problem, const TissueState& state, double horizon, double tolerance) {
+  Reference reference;
+  reference.y = integrate(problem.config, state, with_tolerance(Method::rkc2, tolerance, state), horizon).y;
+  const std::vector<double> second = integrate(problem.config, state, with_tolerance(Method::cvode, tolerance, state), horizon).y;
+  reference.uncertainty = position_errors(state, second, reference.y);
+  return reference;
+}
+
+void measure_case(const Settings& settings, Report& report, const Packed& wounded, const Case& studied) {
+  Packed problem = wounded;
+  set_material(problem, studied.area_stiffness, studied.tau);
+  const TissueState state = with_ring(problem.config, problem.state);
+  const double horizon = studied.horizon * (settings.smoke ? 0.001 : settings.long_runs ? 1.0 : 0.1);
+  const Reference reference = make_reference(problem, state, horizon, settings.smoke ? 1e-6 : 1e-9);
+  for (const Solver& solver : solvers) {
+    const IntegratorOptions options = solver.fixed ? with_step(solver.method, solver.value, state) : with_tolerance(solver.method, solver.value, state);
+    Integrated result;
+    const Timing timing = time_calls(settings.repeats, [&] { result = integrate(problem.config, state, options, horizon); });
+    const PositionErrors errors = position_errors(state, result.y, reference.y);
+    Measurement m{"cases", fmt::format("{}: {}", studied.name, solver.name), {}, {}};
+    m.parameters = {{"k_a", studied.area_stiffness}, {"tau", studied.tau}, {"horizon", horizon}};
+    m.values = {{"seconds", timing.median}, {"fastest_s", timing.fastest}, {"error_rms", errors.rms}, {"error_max", errors.largest},
+                {"uncertainty_rms", reference.uncertainty.rms}, {"uncertainty_max", reference.uncertainty.largest}};
+    append_counts(m, result.statistics);
+    report.add(std::move(m));
+  }
+}
+
+}  // namespace
+
+void measure_cases(const Settings& settings, Report& report, const Packed& wounded) {
+  for (const Case& studied : {Case{"B", 16.0, 76.8, 100.0}, Case{"C", 256.0, 39322.0, 200.0}, Case{"D", 16.0, 39322.0, 1000.0}})
+    measure_case(settings, report, wounded, studied);
+}
+
+void measure_tolerance_grid(const Settings& settings, Report& report, const Packed& wounded) {
+  const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 100.0 : 5.0;
+  for (const double area_stiffness : {0.25, 1.0, 16.0, 40.0, 256.0})
+    for (const double tau : {2.4, 9.6, 76.8, 1228.8, 39321.6}) {
+      if (settings.smoke && (area_stiffness != 16.0 || tau != 9.6)) continue;
+      Packed problem = wounded;
+      set_material(problem, area_stiffness, tau);
+      const TissueState state = with_ring(problem.config, problem.state);
+      const Reference reference = make_reference(problem, state, horizon, 1e-7);
+      for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+        const Integrated result = integrate(problem.config, state, with_tolerance(Method::cvode, tolerance, state), horizon);
+        const PositionErrors errors = position_errors(state, result.y, reference.y);
+        Measurement m{"grid", "error over tolerance", {{"k_a", area_stiffness}, {"tau", tau}, {"tolerance", tolerance}, {"horizon", horizon}}, {}};
+        m.values = {{"ratio", errors.rms / tolerance}, {"ratio_max", errors.largest / tolerance}, {"within", errors.rms / tolerance >= 0.01 && errors.rms / tolerance <= 10.0},
+                    {"uncertainty_ratio", reference.uncertainty.rms / tolerance}};
+        append_counts(m, result.statistics);
+        report.add(std::move(m));
+      }
+    }
+}
+
+}  // namespace suture::benchmark
