@@ -1,6 +1,7 @@
 // A whole embryo closure, from packing to the last gap, under the printed equations.
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -68,9 +69,20 @@ class AreaWatch final : public ClosureObserver {
   int previous_parts_ = 0;
 };
 
+/// Keeps the curve only.
+class AreaSeries final : public ClosureObserver {
+ public:
+  void sample(const ClosureSample& s) override {
+    series.time.push_back(s.time);
+    series.area.push_back(s.wound ? s.wound->area : 0.0);
+  }
+  void event(const EventRecord&) override {}
+  WoundSeries series;
+};
+
 }  // namespace
 
-TEST_CASE("an embryo wound closes as published, and its area is what a flood fill counts", "[validation][slow]") {
+TEST_CASE("an embryo wound closes, and its area is what a flood fill counts", "[validation][slow]") {
   Config config = with_contact_distance(default_config());
   config.run.closed_area = 0.05;
   config.run.end_time = 400.0;
@@ -88,14 +100,32 @@ TEST_CASE("an embryo wound closes as published, and its area is what a flood fil
   CHECK(watch.events[EventKind::capture] > 100);
   CHECK(watch.events[EventKind::kink] > 0);
   CHECK(watch.events[EventKind::closed] == 1);
-  const ClosureSummary summary = summarise_closure(watch.series);
-  REQUIRE(summary.t_05.has_value());
-  // Published means of 25 seeds (data/published, fig4: 33, 68, 101, 121 after the string starts); one seed scatters
-  // by about 20 %, so this is a gross check, the ensemble is in docs/validation.
-  CHECK(*summary.t_50 == Approx(33.0).epsilon(0.35));
-  CHECK(*summary.t_25 == Approx(68.0).epsilon(0.35));
-  CHECK(*summary.t_10 == Approx(101.0).epsilon(0.35));
-  CHECK(*summary.t_05 == Approx(121.0).epsilon(0.35));
+}
+
+TEST_CASE("four embryo wounds close on average as published", "[validation][slow]") {
+  // One closure is chaotic: its t_05 scatters by 30 % between seeds and, for one seed, between any two roundings. A mean
+  // of four scatters by 15 %; the ensemble of 25 is in docs/validation. Published means of 25 seeds (data/published,
+  // fig4): 33, 68, 101, 121 after the string starts.
+  constexpr int seeds = 4;
+  std::array<double, 4> mean{};
+  for (int seed = 1; seed <= seeds; ++seed) {
+    Config config = with_contact_distance(default_config());
+    config.tissue.seed = seed;
+    config.run.closed_area = 0.25;
+    config.run.end_time = 400.0;
+    AreaSeries watch;
+    TissueState last_good;
+    run_closure(config, prepare_tissue(config).state, watch, last_good);
+    const ClosureSummary s = summarise_closure(watch.series);
+    CAPTURE(seed);
+    REQUIRE(s.t_05.has_value());
+    mean[0] += *s.t_50 / seeds, mean[1] += *s.t_25 / seeds, mean[2] += *s.t_10 / seeds, mean[3] += *s.t_05 / seeds;
+  }
+  constexpr std::array published{33.0, 68.0, 101.0, 121.0};
+  for (std::size_t k = 0; k < published.size(); ++k) {
+    CAPTURE(k, mean[k], published[k]);
+    CHECK(mean[k] == Approx(published[k]).epsilon(0.3));
+  }
 }
 
 TEST_CASE("the same configuration gives the same closure, bit for bit", "[validation]") {
