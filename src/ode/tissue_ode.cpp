@@ -91,11 +91,15 @@ struct TissueOde::Impl {
                                            : fmt::format("cell {} has a position that is not finite", c);
         return false;
       }
-    int worst = -1;
+    const auto bad = [&s](int k) { return !(s.length[k] > 0.0) | !(s.rest_a[k] + s.rest_b[k] * s.length[k] > 0.0); };
+    int failures = 0;  // counted first: that loop vectorises, and there are none as a rule
+    for (int c = 0; c < s.cells; ++c)
+      for (int k = s.base[c] + 1; k <= s.base[c] + s.count[c]; ++k) failures += bad(k);
+    if (failures == 0) return true;
+    int worst = 0;
     for (int c = 0; c < s.cells; ++c)
       for (int k = s.base[c] + 1; k <= s.base[c] + s.count[c]; ++k)
-        if (!(s.length[k] > 0.0) || !(s.rest_a[k] + s.rest_b[k] * s.length[k] > 0.0)) worst = k;
-    if (worst < 0) return true;
+        if (bad(k)) worst = k;
     refusal = fmt::format("{}: its segment has length {:.3g} and rest length {:.3g}", tissue.vertex_name(padded.vertex(worst)),
                           s.length[worst], s.rest_a[worst] + s.rest_b[worst] * s.length[worst]);
     return false;
