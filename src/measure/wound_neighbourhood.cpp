@@ -20,9 +20,7 @@ WoundNeighbourhood::WoundNeighbourhood(const Membrane& membrane, double margin)
     : margin_(margin), tracker_(membrane), exposure_(membrane) {}
 
 void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state) {
-  region_ = {infinity, -infinity, infinity, -infinity};
-  for (const Point& p : wound_->outline) include(region_, p.x, p.y);
-  region_ = {region_.x_low - margin_, region_.x_high + margin_, region_.y_low - margin_, region_.y_high + margin_};
+  region_ = around_outline(margin_);
   cells_.clear();
   part_.reset();
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
@@ -33,11 +31,18 @@ void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& sta
   }
 }
 
-bool WoundNeighbourhood::outline_is_inside() const {
-  const double half = 0.5 * margin_;
-  return std::all_of(wound_->outline.begin(), wound_->outline.end(), [&](const Point& p) {
-    return p.x > region_.x_low + half && p.x < region_.x_high - half && p.y > region_.y_low + half && p.y < region_.y_high - half;
-  });
+WoundNeighbourhood::Region WoundNeighbourhood::around_outline(double distance) const {
+  Region box{infinity, -infinity, infinity, -infinity};
+  for (const Point& p : wound_->outline) include(box, p.x, p.y);
+  return {box.x_low - distance, box.x_high + distance, box.y_low - distance, box.y_high + distance};
+}
+
+/// Too small once the outline is within half a margin of its edge, too large when it is twice what is needed.
+bool WoundNeighbourhood::region_fits() const {
+  const Region least = around_outline(0.5 * margin_), wanted = around_outline(margin_);
+  const auto size = [](const Region& r) { return (r.x_high - r.x_low) * (r.y_high - r.y_low); };
+  return least.x_low > region_.x_low && least.x_high < region_.x_high && least.y_low > region_.y_low && least.y_high < region_.y_high &&
+         size(region_) < 2.0 * size(wanted);
 }
 
 const Tissue& WoundNeighbourhood::part(const Tissue& tissue) {
@@ -67,7 +72,7 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
   if (!wound_) return wound_;
   if (!cells_.empty())
     for (int& v : wound_->boundary) v = vertex_[v];
-  if (cells_.empty() || !outline_is_inside()) choose_cells(tissue, state);
+  if (cells_.empty() || !region_fits()) choose_cells(tissue, state);
   return wound_;
 }
 

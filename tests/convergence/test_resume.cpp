@@ -45,3 +45,36 @@ TEST_CASE("an event that changes nothing changes nothing", "[convergence]") {
     CHECK(largest_difference(integrator->state(), state.values) > 0.01);
   }
 }
+
+TEST_CASE("kept history costs no steps, a fresh start does; renumbered components keep theirs", "[convergence]") {
+  const TissueState state =
+      wavy_cell(10, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
+  const double end = 2.0;
+  std::vector<int> same(state.values.size());
+  for (std::size_t k = 0; k < same.size(); ++k) same[k] = static_cast<int>(k);
+  const auto steps_with_events = [&](bool keep, std::span<const int> source) {
+    TissueOde ode(state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {});
+    IntegratorOptions options = with_tolerance(Method::cvode, 1e-6);
+    options.keep_history = keep;
+    const auto integrator = make_integrator(ode, options, 0.0, state.values);
+    std::vector<double> y(state.values.size());
+    double next_event = 0.1;
+    while (integrator->time() < end) {
+      integrator->step(end);
+      if (integrator->time() < next_event || integrator->time() == end) continue;
+      integrator->interpolate(next_event, y);
+      integrator->resume(next_event, y, source);
+      next_event += 0.1;
+    }
+    return integrator->statistics().steps;
+  };
+  TissueOde ode(state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {});
+  const auto undisturbed = make_integrator(ode, with_tolerance(Method::cvode, 1e-6), 0.0, state.values);
+  while (undisturbed->time() < end) undisturbed->step(end);
+  const std::int64_t least = undisturbed->statistics().steps, kept = steps_with_events(true, {}), renumbered = steps_with_events(true, same),
+                     afresh = steps_with_events(false, {});
+  CAPTURE(least, kept, renumbered, afresh);
+  CHECK(kept < 1.25 * least);  // each event cuts a step
+  CHECK(renumbered == kept);
+  CHECK(afresh > 1.5 * kept);
+}

@@ -7,6 +7,7 @@
 
 #include "suture/io/config.hpp"
 #include "suture/measure/closure.hpp"
+#include "suture/measure/wound_neighbourhood.hpp"
 #include "suture/setup/protocol.hpp"
 #include "suture/simulate/closure.hpp"
 #include "support/wound_tissues.hpp"
@@ -18,13 +19,14 @@ namespace {
 /// Checks the wound area at every sample and keeps the curve.
 class AreaWatch final : public ClosureObserver {
  public:
-  explicit AreaWatch(const Membrane& membrane) : membrane_(membrane) {}
+  explicit AreaWatch(const Membrane& membrane) : membrane_(membrane), neighbourhood_(membrane) {}
 
   void sample(const ClosureSample& s) override {
     const double area = s.wound ? s.wound->area : 0.0;
     series.time.push_back(s.time);
     series.area.push_back(area);
     if (s.wound && series.time.size() % 40 == 1) compare_with_flood_fill(s, area);
+    if (s.wound) compare_with_neighbourhood(s);
     if (s.wound && previous_parts_ == 1 && s.wound->parts == 1) check_continuity(s, area);
     previous_parts_ = s.wound ? s.wound->parts : 0;
     previous_ = s.state;
@@ -42,6 +44,7 @@ class AreaWatch final : public ClosureObserver {
   std::map<EventKind, int> events;
   int flood_fills = 0, continuity_checks = 0;
   bool finite = true, in_order = true;
+  std::size_t fewest_cells = 1000;
 
  private:
   void compare_with_flood_fill(const ClosureSample& s, double area) {
@@ -51,6 +54,15 @@ class AreaWatch final : public ClosureObserver {
     CAPTURE(s.time, area, counted, s.wound->perimeter);
     CHECK(std::abs(area - counted) < 1.5 * pixel * s.wound->perimeter + pixel * pixel);
     ++flood_fills;
+  }
+  /// Looking only at the cells around the wound gives the same wound, bit for bit.
+  void compare_with_neighbourhood(const ClosureSample& s) {
+    const std::optional<Wound>& seen = neighbourhood_.update(s.state.tissue, s.state.view());
+    CAPTURE(s.time);
+    REQUIRE(seen.has_value());
+    CHECK(seen->area == s.wound->area);
+    CHECK(seen->boundary == s.wound->boundary);
+    fewest_cells = std::min(fewest_cells, neighbourhood_.cells().size());
   }
   /// The area cannot change faster than its edge moves.
   void check_continuity(const ClosureSample& s, double area) {
@@ -64,6 +76,7 @@ class AreaWatch final : public ClosureObserver {
   }
 
   Membrane membrane_;
+  WoundNeighbourhood neighbourhood_;
   TissueState previous_;
   double previous_area_ = 0.0, last_event_ = 0.0;
   int previous_parts_ = 0;
@@ -95,6 +108,7 @@ TEST_CASE("an embryo wound closes, and its area is what a flood fill counts", "[
   CHECK(watch.flood_fills >= 5);
   CHECK(watch.continuity_checks >= 100);
   CHECK(watch.finite);
+  CHECK(watch.fewest_cells < 20);
   CHECK(watch.in_order);
   CHECK(watch.events[EventKind::yield] > 100);
   CHECK(watch.events[EventKind::capture] > 100);

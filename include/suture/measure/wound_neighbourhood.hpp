@@ -12,7 +12,7 @@ namespace suture {
 
 /// Only cells whose bounding box comes within `margin` of the box of the wound's outline are looked at. They are chosen
 /// anew when the outline has come within half a margin of the edge of that region, so a wound may move by half a margin
-/// between two updates. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
+/// between two updates, and when the region has become twice as large as it need be. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
 class WoundNeighbourhood {
  public:
   /// margin: model units of length; about the diameter of a cell.
@@ -37,7 +37,8 @@ class WoundNeighbourhood {
     double x_low, x_high, y_low, y_high;
   };
   void choose_cells(const Tissue& tissue, const StateView& state);
-  bool outline_is_inside() const;
+  Region around_outline(double distance) const;
+  bool region_fits() const;
   /// The part of the tissue that is looked at, and its positions.
   const Tissue& part(const Tissue& tissue);
   StateView gather(const StateView& state);
