@@ -37,21 +37,6 @@ std::string command_line(const Options& options) {
   return text;
 }
 
-Provenance provenance_of(const Options& options, const Config& config) {
-  Provenance provenance;
-  provenance.config_text = read_text(options.file);
-  provenance.resolved_config = write_config(config);
-  provenance.command_line = command_line(options);
-  provenance.start_time = utc_now();
-  provenance.parent = config.run.start_from;
-  provenance.seed = config.tissue.seed;
-  provenance.threads = config.integrator.threads;
-  provenance.position_tolerance = config.integrator.tolerance;
-  provenance.rest_length_tolerance = config.integrator.rest_length_tolerance;
-  provenance.units = config.units;
-  return provenance;
-}
-
 std::string verdict(const RunOutcome& outcome) {
   const RunSummary& s = outcome.summary;
   const auto time = [](const std::optional<double>& t) { return t ? fmt::format("{:.1f}", *t) : std::string("never"); };
@@ -87,7 +72,7 @@ void run(const Options& options, CommandResult& result) {
     return;
   }
   const StopRequest stop(max_wall);
-  RunRequest request{config, provenance_of(options, config), options.directory, {}, [&stop] { return stop.requested(); },
+  RunRequest request{config, provenance_of(config, read_text(options.file), command_line(options)), options.directory, {}, [&stop] { return stop.requested(); },
                      options.resume};
   RunOutcome outcome;
   {

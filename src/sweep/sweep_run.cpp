@@ -38,26 +38,11 @@ void write_record(const SweepFolder& folder, const SweepRun& run, const RunRecor
   write_file_atomically(folder.run(run) / "done.json", json.dump(2) + "\n");
 }
 
-Provenance provenance_of(const SweepRun& run, const Config& config) {
-  Provenance provenance;
-  provenance.config_text = run.text();
-  provenance.resolved_config = write_config(config);
-  provenance.command_line = fmt::format("suture sweep, run {} ({})", run.index, run.key);
-  provenance.start_time = utc_now();
-  provenance.parent = config.run.start_from;
-  provenance.seed = config.tissue.seed;
-  provenance.threads = config.integrator.threads;
-  provenance.position_tolerance = config.integrator.tolerance;
-  provenance.rest_length_tolerance = config.integrator.rest_length_tolerance;
-  provenance.units = config.units;
-  return provenance;
-}
-
 RunOutcome simulate(const SweepFolder& folder, const SweepRun& run, const std::function<bool()>& stop) {
   Config config = run.config;
   if (can_share_preparation(config))
     config.run.start_from = shared_preparation(run.preparation.value_or(run.config), folder.prepared(), folder.lease_s, stop).string();
-  return run_protocol({config, provenance_of(run, config), folder.run(run), {}, stop});
+  return run_protocol({config, provenance_of(config, run.text(), fmt::format("suture sweep, run {} ({})", run.index, run.key)), folder.run(run), {}, stop});
 }
 
 const char* status_name(RunStatus status) {

@@ -24,4 +24,7 @@ struct Provenance {
 /// Now, as "2026-11-22T08:47:31Z".
 std::string utc_now();
 
+/// Of a run of `config` that starts now.
+Provenance provenance_of(const Config& config, std::string config_text, std::string command_line);
+
 }  // namespace suture
