@@ -94,7 +94,8 @@ TEST_CASE("every method closes a small wound, events included", "[cli]") {
   const TemporaryDirectory directory;
   const Outcome outcome = run_suture(SUTURE_PROGRAM,
                                      {"converge", examples + "small.toml", "--quiet", "--out", "out", "--methods", "cvode,rkc2,auto,arkode,adams,euler,verlet,rk4",
-                                      "--tolerances", "1e-3", "--steps", "2e-3", "--seeds", "2", "--reference-tolerance", "1e-5", "--set", "integrator.vertex_mass=0.05"},
+                                      "--tolerances", "1e-3", "--steps", "2e-3", "--seeds", "2", "--reference-tolerance", "1e-5", "--set", "integrator.vertex_mass=0.05",
+                                      "--set", "purse_string.yield_length=1.6"},  // tethers that break early: some 25 events
                                      directory.path());
   INFO(outcome.errors);
   REQUIRE(outcome.exit_code == 0);
@@ -103,7 +104,7 @@ TEST_CASE("every method closes a small wound, events included", "[cli]") {
   for (const auto& row : table) {
     CAPTURE(row.at("method"), row.at("error_t5"), row.at("mean_error_area"));
     CHECK(row.at("status") == "done");
-    CHECK(std::stod(row.at("restarts")) >= 1.0);
+    CHECK(std::stod(row.at("restarts")) >= 5.0);
     REQUIRE_FALSE(row.at("error_t5").empty());
     const bool with_mass = row.at("method") == "verlet";  // another motion, which meets other events
     CHECK(std::stod(row.at("error_t5")) < (with_mass ? 10.0 : 0.2));
