@@ -33,11 +33,12 @@ def draw(axis, nodes, quantity, low, high):
     levels = np.linspace(low, high, 15)
     picture = None
     x, y, z = map(np.array, zip(*values)) if values else ([], [], [])
-    if len(values) > 3 and len(set(x)) > 1 and len(set(y)) > 1:
+    # Contours would run across nodes that have no value: then the nodes alone.
+    if not open_ and len(values) > 3 and len(set(x)) > 1 and len(set(y)) > 1:
         picture = axis.tricontourf(np.log2(x), np.log10(y), z, levels=levels, cmap="viridis", extend="both")
         picture.axes.scatter(np.log2(x), np.log10(y), c=z, cmap="viridis", vmin=low, vmax=high, ec="k", lw=0.4, s=22)
     elif values:
-        picture = axis.scatter(np.log2(x), np.log10(y), c=z, cmap="viridis", vmin=low, vmax=high, ec="k", s=22)
+        picture = axis.scatter(np.log2(x), np.log10(y), c=z, cmap="viridis", vmin=low, vmax=high, ec="k", lw=0.4, s=60)
     for b, tau in open_:
         axis.plot(math.log2(b), math.log10(tau), "kx", ms=6)
     for name, (b, tau, colour) in TISSUES.items():
