@@ -94,7 +94,7 @@ std::vector<ConfigKey<Config>> program_keys() {
       key<&C::integrator, &I::skin>("integrator", "skin", in_rest_lengths, above_zero_to(100),
                                     "extra reach of the neighbour lists; changes speed, not results"),
       key<&C::integrator, &I::threads>("integrator", "threads", pure_number, between(1, 1024),
-                                       "threads inside one run; pays for large tissues only"),
+                                       "threads inside one run; accepted, but nothing uses more than one yet"),
       key<&C::output, &OutputParameters::interval>("output", "interval", time, positive,
                                                    "time between samples of the wound"),
       key<&C::output, &OutputParameters::frame_interval>("output", "frame_interval", time, positive,
