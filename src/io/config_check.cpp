@@ -81,6 +81,8 @@ class Checker {
     if (!string.enabled) return;
     require(string.law != SpringLaw::relative || string.minimum_rest_length > 0.0, "purse_string.minimum_rest_length",
             string.minimum_rest_length, "a number > 0 when purse_string.law = \"relative\", which divides by it");
+    require(string.capture_search != CaptureSearch::published || string.event_handling == EventHandling::each_step,
+            "purse_string.capture_search", "published", "boundary unless purse_string.event_handling = \"each_step\"");
   }
 
   void check_single_cell() const {

@@ -28,6 +28,16 @@ constexpr std::array capture_laws{
     choice("tension_free", CaptureLaw::tension_free, "both halves start without tension"),
     choice("slip", CaptureLaw::slip, "halves the wrong spring, as the published simulations did; validation only"),
 };
+constexpr std::array capture_searches{
+    choice("boundary", CaptureSearch::boundary, "the exposed vertices of the wound's outline, in its order"),
+    choice("published", CaptureSearch::published,
+           "vertices near a flood fill of the wound, beside the nearest ring vertices; validation only"),
+};
+constexpr std::array gap_laws{
+    choice("span", GapLaw::span, "the distance across the whole gap: no tension"),
+    choice("first", GapLaw::first,
+           "the distance across the first of them only, as the published simulations did; validation only"),
+};
 constexpr std::array event_handlings{
     choice("auto", EventHandling::automatic, "located while events are rare, on the event grid once they storm"),
     choice("automatic", EventHandling::automatic),
@@ -77,6 +87,14 @@ std::span<const Choice> choices_of<TetherLaw>() {
 template <>
 std::span<const Choice> choices_of<CaptureLaw>() {
   return capture_laws;
+}
+template <>
+std::span<const Choice> choices_of<CaptureSearch>() {
+  return capture_searches;
+}
+template <>
+std::span<const Choice> choices_of<GapLaw>() {
+  return gap_laws;
 }
 template <>
 std::span<const Choice> choices_of<EventHandling>() {

@@ -76,7 +76,7 @@ double event_function(const RingEvent& event, const PurseString& purse_string, c
   return event.kind == EventKind::force_regained ? -excess : excess;
 }
 
-TissueState apply_events(TissueState state, std::span<const RingEvent> events, std::vector<EventRecord>& log) {
+TissueState apply_events(TissueState state, std::span<const RingEvent> events, GapLaw law, std::vector<EventRecord>& log) {
   std::vector<int> yielded;
   for (const RingEvent& event : events) {
     log.push_back(event_record(state, event.kind, state.purse_string.vertex[event.index]));
@@ -86,7 +86,7 @@ TissueState apply_events(TissueState state, std::span<const RingEvent> events, s
       state.purse_string.mode[event.index] =
           event.kind == EventKind::force_lost ? TetherMode::slipped : TetherMode::attached;
   }
-  return yield_tethers(std::move(state), yielded);
+  return yield_tethers(std::move(state), yielded, law);
 }
 
 std::optional<double> next_kink_time(const PurseString& purse_string, double t) {

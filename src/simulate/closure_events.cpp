@@ -56,7 +56,8 @@ ClosureEvents::ClosureEvents(const Config& config, const Membrane& membrane, dou
       thresholds_(tether_thresholds(config.purse_string, membrane.contact_distance)),
       start_(start_time),
       interval_(config.purse_string.event_interval),
-      gauge_(config.purse_string.event_handling) {}
+      gauge_(config.purse_string.event_handling),
+      search_(membrane, config.purse_string.search_steps) {}
 
 /// Earliest crossing of any watched event function inside the step, by bisection on the interpolant. A tether that
 /// crosses and comes back within one step is not an event: the step's own accuracy does not resolve it.
@@ -118,6 +119,7 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
 
 std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   if (state.purse_string.empty()) return std::nullopt;
+  if (parameters_.capture_search == CaptureSearch::published) return after_step(integrator, state);
   values_.resize(state.values.size());
   std::optional<DueEvents> due = on_grid(integrator, state, edge);
   if (gauge_.on_grid(integrator.time())) return due;
@@ -126,6 +128,16 @@ std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const
   // The step is cut here, so the grid times behind it are looked at again.
   last_grid_ = std::min(last_grid_, static_cast<long>(std::floor((located->time - start_) / interval_ + 1e-9)));
   return located;
+}
+
+/// As the published program: whatever is due at the end of the step.
+std::optional<DueEvents> ClosureEvents::after_step(const Integrator& integrator, const TissueState& state) {
+  const StateView view(state.layout(), integrator.state());
+  if (!search_.step(integrator.time(), state, view)) return std::nullopt;
+  DueEvents due{integrator.time(), due_events(state.purse_string, view, thresholds_), false};
+  due.captures = parameters_.capture && search_.finds_untethered(state.purse_string);
+  if (due.tethers.empty() && !due.captures) return std::nullopt;
+  return due;
 }
 
 /// Captures come first: a tether that breaks now is recaptured at the next grid time at the earliest.
@@ -138,7 +150,7 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbo
   const std::vector<int>& ring = state.purse_string.vertex;
   for (std::size_t k = 0; k < tethers.size(); ++k)
     tethers[k].index = static_cast<int>(std::find(ring.begin(), ring.end(), vertex[k]) - ring.begin());
-  state = apply_events(std::move(state), tethers, log);
+  state = apply_events(std::move(state), tethers, parameters_.gap_law, log);
   gauge_.count(due.time, static_cast<int>(tethers.size()));
   const auto is_yield = [](const RingEvent& e) { return e.kind == EventKind::yield; };
   if (std::any_of(tethers.begin(), tethers.end(), is_yield)) seen_exposed_.clear();
@@ -146,12 +158,12 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbo
 }
 
 bool ClosureEvents::capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log) {
+  if (parameters_.capture_search == CaptureSearch::published) return search_.capture(state, parameters_.capture_law, log);
   seen_exposed_ = edge.exposed(state.tissue, state.view());
   const std::optional<Wound>& wound = edge.update(state.tissue, state.view());
   if (!wound) return false;
   const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
-  const bool published = parameters_.capture_law == CaptureLaw::slip;
-  const std::vector<Capture> captured = published ? published_captures(state, boundary) : captures(state, boundary);
+  const std::vector<Capture> captured = captures(state, boundary);
   if (captured.empty()) return false;
   state = capture_vertices(std::move(state), captured, parameters_.capture_law);
   for (const Capture& c : captured) log.push_back(event_record(state, EventKind::capture, c.vertex));

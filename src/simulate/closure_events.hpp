@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "suture/integrate/integrator.hpp"
+#include "simulate/published_search.hpp"
 #include "suture/measure/wound_neighbourhood.hpp"
 #include "suture/ode/purse_string_events.hpp"
 #include "suture/physics/purse_string_operations.hpp"
@@ -53,12 +54,13 @@ class ClosureEvents {
   /// What the next events depend on, for checkpoints (byte_archive.hpp).
   template <class Archive>
   void fields(Archive& archive) {
-    archive(start_, gauge_, seen_exposed_, last_grid_);
+    archive(start_, gauge_, seen_exposed_, last_grid_, search_);
   }
 
  private:
   std::optional<DueEvents> locate(const Integrator& integrator, const TissueState& state);
   std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
+  std::optional<DueEvents> after_step(const Integrator& integrator, const TissueState& state);
   bool capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
   double grid_time(long k) const { return start_ + static_cast<double>(k) * interval_; }
 
@@ -66,6 +68,7 @@ class ClosureEvents {
   TetherThresholds thresholds_;
   double start_, interval_;
   StormGauge gauge_;
+  PublishedSearch search_;          // for CaptureSearch::published
   std::vector<char> seen_exposed_;  // when captures were last settled
   long last_grid_ = 0;              // index of the last grid time looked at
   std::vector<double> values_;      // interpolated

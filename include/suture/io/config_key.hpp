@@ -94,6 +94,10 @@ std::span<const Choice> choices_of<TetherLaw>();
 template <>
 std::span<const Choice> choices_of<CaptureLaw>();
 template <>
+std::span<const Choice> choices_of<CaptureSearch>();
+template <>
+std::span<const Choice> choices_of<GapLaw>();
+template <>
 std::span<const Choice> choices_of<EventHandling>();
 template <>
 std::span<const Choice> choices_of<Adjacency>();

@@ -31,6 +31,18 @@ enum class CaptureLaw {
   slip,          ///< published slip: the spring AFTER the new vertex's successor is halved instead
 };
 
+/// Which cell vertices are captured and where they join the ring.
+enum class CaptureSearch {
+  boundary,   ///< the exposed vertices of the wound's outline, in its order
+  published,  ///< vertices near a flood fill, beside the nearest ring vertices (published simulations)
+};
+
+/// Rest length of the spring that closes the gap of consecutive tethers that yield together.
+enum class GapLaw {
+  span,   ///< the distance across the whole gap
+  first,  ///< published slip: the distance to the first of the vertices that yield and its successor, whatever comes then
+};
+
 /// When discrete events of the purse string are processed.
 enum class EventHandling {
   automatic,  ///< located while rare, on the event grid once they storm
@@ -117,6 +129,9 @@ struct PurseStringParameters {
   double yield_length = 2.0;           ///< l_y, in units of s
   CaptureLaw capture_law = CaptureLaw::split;
   bool capture = true;
+  CaptureSearch capture_search = CaptureSearch::boundary;
+  int search_steps = 50;               ///< integrator steps between flood fills of CaptureSearch::published
+  GapLaw gap_law = GapLaw::span;
   int crevice_depth = 1;               ///< vertices the string follows each cell into a crevice, beyond the exposed ones
   EventHandling event_handling = EventHandling::automatic;
   double event_interval = 0.05;

@@ -76,7 +76,7 @@ double event_function(const RingEvent& event, const PurseString& purse_string, c
                       const TetherThresholds& thresholds);
 
 /// Applies ring events at state.time, all yields at once, and appends a record of each to `log`.
-TissueState apply_events(TissueState state, std::span<const RingEvent> events, std::vector<EventRecord>& log);
+TissueState apply_events(TissueState state, std::span<const RingEvent> events, GapLaw law, std::vector<EventRecord>& log);
 
 /// Earliest time > t at which a rest length reaches its floor; nothing if all have or none ever will.
 std::optional<double> next_kink_time(const PurseString& purse_string, double t);

@@ -8,6 +8,7 @@
 // recaptured leaves the chain as stiff as before. SpringLaw::relative reads only the rest lengths.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "suture/model/state.hpp"
@@ -28,8 +29,10 @@ TissueState create_purse_string(TissueState state, const std::vector<int>& bound
 /// Removes the tethers and purse-string vertices `ring_indices` (any order; repeats allowed) and closes the chain over
 /// each gap, however many consecutive vertices it swallows, with one spring: rest length = the present distance of the
 /// cell vertices on either side, shrinking from now on; reference_length^2 = the sum over the springs it replaces.
+/// GapLaw::first takes the distance of the cell vertices on either side of the first vertex of the gap instead, also
+/// where the one behind it yields too: then the spring is short of its gap and pulls.
 /// When fewer than smallest_ring vertices remain the whole string is removed (purse_string.empty()).
-TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indices);
+TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indices, GapLaw law = GapLaw::span);
 
 /// A cell vertex to be tethered: its purse-string vertex goes between ring vertices `after` and after + 1 (cyclic).
 struct Capture {
@@ -50,9 +53,10 @@ std::vector<Capture> captures(const PurseString& purse_string, const std::vector
 /// tie), never before one placed earlier. Keeps the chain from folding back at crevices.
 std::vector<Capture> captures(const TissueState& state, const std::vector<int>& boundary);
 
-/// Insertion as in the published simulations: between the two ring vertices whose cell vertices are nearest to the new
-/// one, if those are neighbours in the ring; otherwise it is not captured. For preset `published_code`.
-std::vector<Capture> published_captures(const TissueState& state, const std::vector<int>& boundary);
+/// The ring vertex behind which the published simulations insert cell vertex `vertex`: beside a neighbour of its own
+/// membrane, else between two of the three ring vertices whose cell vertices are nearest, under their conditions;
+/// nothing when they refuse it. `vertex` is not in the ring. For CaptureSearch::published.
+std::optional<int> published_insertion(const TissueState& state, int vertex);
 
 /// Inserts the captured vertices at the positions of their cell vertices, attached. The springs, with lambda0 their
 /// rest lengths now and m captures in the same spring:

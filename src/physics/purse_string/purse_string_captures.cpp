@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -59,25 +58,6 @@ double cell_distance(const StateView& state, int v, int w) {
   return std::hypot(state.x[v] - state.x[w], state.y[v] - state.y[w]);
 }
 
-/// The two ring vertices whose cell vertices are nearest to v, nearest first.
-std::array<int, 2> two_nearest(const TissueState& state, int v) {
-  const StateView view = state.view();
-  std::array<int, 2> nearest{0, 0};
-  std::array<double, 2> distance;
-  distance.fill(std::numeric_limits<double>::infinity());
-  for (int j = 0; j < state.purse_string.size(); ++j) {
-    const double d = cell_distance(view, v, state.purse_string.vertex[j]);
-    if (d < distance[0]) {
-      distance = {d, distance[0]};
-      nearest = {j, nearest[0]};
-    } else if (d < distance[1]) {
-      distance[1] = d;
-      nearest[1] = j;
-    }
-  }
-  return nearest;
-}
-
 }  // namespace
 
 std::vector<Capture> captures(const PurseString& purse_string, const std::vector<int>& boundary) {
@@ -104,19 +84,6 @@ std::vector<Capture> captures(const TissueState& state, const std::vector<int>& 
     }
     earliest = best;
     result.push_back({p.vertex, (p.first + best) % string.size()});
-  }
-  return result;
-}
-
-std::vector<Capture> published_captures(const TissueState& state, const std::vector<int>& boundary) {
-  const PurseString& string = state.purse_string;
-  std::vector<Capture> result;
-  for (const Placement& p : placements(string, boundary)) {
-    const auto [first, second] = two_nearest(state, p.vertex);
-    if ((first + 1) % string.size() == second)
-      result.push_back({p.vertex, first});
-    else if ((second + 1) % string.size() == first)
-      result.push_back({p.vertex, second});
   }
   return result;
 }

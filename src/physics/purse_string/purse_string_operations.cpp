@@ -120,7 +120,7 @@ TissueState create_purse_string(TissueState state, const std::vector<int>& bound
   return with_ring(std::move(state), std::move(ring));
 }
 
-TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indices) {
+TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indices, GapLaw law) {
   if (ring_indices.empty()) return state;
   const Ring old = take_ring(state);
   const int count = old.string.size();
@@ -148,7 +148,8 @@ TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indice
       double squares = 0.0;
       for (int i = j; i != next; i = (i + 1) % count)
         squares += old.string.spring[i].reference_length * old.string.spring[i].reference_length;
-      spring = {distance(state.view(), old.string.vertex[j], old.string.vertex[next]), state.time, std::sqrt(squares)};
+      const int far = law == GapLaw::span ? next : (j + 2) % count;
+      spring = {distance(state.view(), old.string.vertex[j], old.string.vertex[far]), state.time, std::sqrt(squares)};
     }
     ring.string.spring.push_back(spring);
   }

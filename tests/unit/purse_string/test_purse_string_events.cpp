@@ -101,7 +101,7 @@ TEST_CASE("a tether slips, recovers and breaks", "[unit]") {
     stretch_tether(state, j, fraction * l_y, 0.4);
     state.time += 0.5;
     const Events due = due_events(state.purse_string, state.view(), thresholds);
-    state = apply_events(std::move(state), due, log);
+    state = apply_events(std::move(state), due, GapLaw::span, log);
     CHECK((state.purse_string.size() < size || due_events(state.purse_string, state.view(), thresholds).empty()));
   };
   step_to(0.45);
@@ -126,7 +126,7 @@ TEST_CASE("yields and changes of mode can fall due together", "[unit]") {
   const std::vector<int> vertices = state.purse_string.vertex;
   std::vector<EventRecord> log;
   const Events events{{EventKind::yield, 1}, {EventKind::force_lost, 3}, {EventKind::yield, 4}};
-  state = apply_events(std::move(state), events, log);
+  state = apply_events(std::move(state), events, GapLaw::span, log);
   REQUIRE(state.purse_string.size() == static_cast<int>(vertices.size()) - 2);
   CHECK(state.purse_string.vertex[2] == vertices[3]);
   CHECK(state.purse_string.mode[2] == TetherMode::slipped);
@@ -141,7 +141,7 @@ TEST_CASE("nothing due means nothing changed and nothing allocated", "[unit]") {
   std::vector<EventRecord> log;
   const Events due = due_events(state.purse_string, state.view(), thresholds_of(TetherLaw::published));
   CHECK(due.capacity() == 0);
-  state = apply_events(std::move(state), due, log);
+  state = apply_events(std::move(state), due, GapLaw::span, log);
   CHECK(state.values.data() == data);
   CHECK(log.empty());
 }

@@ -1,0 +1,40 @@
+// The captures of the published program (tandrewton/dpm, epi2D::updatePurseStringContacts): a list of the vertices beside
+// the wound, made by a flood fill every so many steps; those of it that have no tether are offered to the ring after
+// every step, in the order of their numbers. A tether that breaks is thus made anew one step later.
+#pragma once
+
+#include <vector>
+
+#include "suture/measure/grid_wound.hpp"
+#include "suture/ode/purse_string_events.hpp"
+
+namespace suture {
+
+class PublishedSearch {
+ public:
+  PublishedSearch(const Membrane& membrane, int steps_between_fills) : wound_(membrane), interval_(steps_between_fills) {}
+
+  /// After a step of the integrator that ended at `t`; false if this step has been counted already.
+  bool step(double t, const TissueState& state, const StateView& view);
+  /// Whether some vertex of the list has no tether.
+  bool finds_untethered(const PurseString& string) const;
+  /// Offers them to the ring, one after the other; true if any was captured.
+  bool capture(TissueState& state, CaptureLaw law, std::vector<EventRecord>& log) const;
+
+  template <class Archive>
+  void fields(Archive& archive) {
+    archive(wound_, steps_, last_time_, cells_, vertices_);
+  }
+
+ private:
+  void start(const TissueState& state, const StateView& view);
+
+  GridWound wound_;
+  int interval_;
+  long steps_ = 0;
+  double last_time_ = -1e300;
+  std::vector<char> cells_;    // at the wound when the string formed: no others are captured
+  std::vector<int> vertices_;  // beside the wound at the last flood fill
+};
+
+}  // namespace suture
