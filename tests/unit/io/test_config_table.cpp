@@ -133,11 +133,13 @@ TEST_CASE("every word of every key is accepted and written back in its first spe
       if (key.section.empty()) continue;
       const std::string override_text = key.path() + "=" + std::string{choice.name};
       INFO(override_text);
-      // These words need company: a chain law that divides by lambda_min, protocols of one cell.
+      // These words need company: a chain law that divides by lambda_min, protocols of one cell, the published captures.
+      const bool after_steps = override_text == "purse_string.capture_search=published";
       const Config config =
           parse_config("", "test.toml",
                        {"purse_string.minimum_rest_length=0.01", "tissue.cells=1", "run.last_stage=packing",
-                        override_text, key.path() == "run.last_stage" ? "tissue.cells=50" : "tissue.vertices=30"});
+                        override_text, key.path() == "run.last_stage" ? "tissue.cells=50" : "tissue.vertices=30",
+                        after_steps ? "purse_string.event_handling=each_step" : "tissue.vertices=30"});
       Config copy = config;
       const Slot slot = key.slot(copy);
       REQUIRE(std::holds_alternative<ChoiceSlot>(slot));

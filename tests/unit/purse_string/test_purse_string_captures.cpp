@@ -102,15 +102,3 @@ TEST_CASE("a misordered boundary never places a vertex past the next exposed rin
   const TissueState state = points_with_string(points, {0, 1, 2, 3, 4});
   CHECK(captures(state, {0, 5, 3, 1, 2, 4}) == Captures{{5, 0}});
 }
-
-TEST_CASE("the published insertion looks for the two nearest ring vertices", "[unit]") {
-  const std::vector<std::pair<double, double>> points{{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0},
-                                                      {0.5, 0.1}, {0.1, 0.4}, {0.45, 0.5}};
-  const TissueState state = points_with_string(points, {0, 1, 2, 3});
-  CHECK(published_captures(state, {0, 4, 1, 2, 3}) == Captures{{4, 0}});
-  CHECK(published_captures(state, {0, 1, 5, 2, 3}) == Captures{{5, 3}});  // over the seam, whatever the boundary says
-  TissueState far = state;
-  far.mutable_view().x[3] = -3.0;  // the two nearest to 6 are now 0 and 2: no neighbours
-  far.mutable_view().x[1] = 4.0;
-  CHECK(published_captures(far, {0, 1, 6, 2, 3}).empty());
-}

@@ -159,6 +159,21 @@ TEST_CASE("yields in a batch are the same as neighbours closed once", "[unit]") 
   }
 }
 
+TEST_CASE("the published gap is measured to the first vertex behind the first that yields", "[unit]") {
+  const TissueState before = used_string();
+  const std::vector<int>& old = before.purse_string.vertex;
+  const auto closing_rest = [&](const std::vector<int>& yields, int closing, GapLaw law) {
+    return yield_tethers(before, yields, law).purse_string.spring[closing].rest_length;
+  };
+  CHECK(closing_rest({4}, 3, GapLaw::first) == closing_rest({4}, 3, GapLaw::span));
+  for (const std::vector<int>& yields : {std::vector<int>{4, 5}, {4, 5, 6, 7}}) {
+    CHECK(closing_rest(yields, 3, GapLaw::first) == point_distance(before, old[3], old[5]));
+    CHECK(closing_rest(yields, 3, GapLaw::span) == point_distance(before, old[3], old[yields.back() + 1]));
+  }
+  const int last = static_cast<int>(old.size()) - 1;
+  CHECK(closing_rest({last, 0}, last - 2, GapLaw::first) == point_distance(before, old[last - 1], old[0]));
+}
+
 TEST_CASE("a ring of fewer than three vertices is removed", "[unit]") {
   const TissueState before =
       create_purse_string(cells_around_a_hole(), {1, 9, 17, 25}, ring_parameters(), contact_distance);
