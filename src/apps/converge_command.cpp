@@ -5,13 +5,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "progress_line.hpp"
+#include "stop_request.hpp"
 #include "suture/converge/study.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
@@ -20,14 +20,6 @@
 namespace suture {
 
 namespace {
-
-volatile std::sig_atomic_t stop_requested = 0;
-
-/// The first signal asks for an orderly stop, the second one is obeyed at once.
-void on_signal(int signal) {
-  if (stop_requested != 0) std::_Exit(128 + signal);
-  stop_requested = 1;
-}
 
 struct Options {
   std::string file, directory = "out";
@@ -105,9 +97,8 @@ std::string command_line(const Options& options, const StudyOptions& study) {
 
 void converge(const Options& options, CommandResult& result) {
   const Config config = read_config(options.file, options.overrides);
-  StudyRequest request{config, study_options(options, config), {}, [] { return stop_requested != 0; }, {}};
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  const StopRequest stop{std::nullopt};
+  StudyRequest request{config, study_options(options, config), {}, [&stop] { return stop.requested(); }, {}};
   const std::filesystem::path directory = options.directory;
   const std::string command = command_line(options, request.options);
   request.row_done = [&](const StudyResult& so_far) { write_study(so_far, request, command, directory); };

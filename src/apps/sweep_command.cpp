@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <iostream>
 #include <memory>
 #include <thread>
 
 #include "commands.hpp"
 #include "progress_line.hpp"
+#include "stop_request.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/sweep_file.hpp"
 #include "suture/sweep/claim.hpp"
@@ -19,14 +19,6 @@
 namespace suture {
 
 namespace {
-
-volatile std::sig_atomic_t stop_requested = 0;
-
-/// The first signal asks for an orderly stop, the second one is obeyed at once; the children then die with this process.
-void on_signal(int signal) {
-  if (stop_requested != 0) std::_Exit(128 + signal);
-  stop_requested = 1;
-}
 
 struct Options {
   std::string file, directory = "out", seeds;
@@ -72,8 +64,7 @@ struct SweepEnd {
 };
 
 SweepEnd execute(const Options& options, const SweepFolder& folder, const SweepPlan& plan) {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  const StopRequest stop{std::nullopt};
   ProgressLine line;
   SweepEnd end;
   const auto report = [&](const SweepProgress& progress) {
@@ -84,7 +75,7 @@ SweepEnd execute(const Options& options, const SweepFolder& folder, const SweepP
     const double fraction = to_do > 0 ? static_cast<double>(progress.finished - progress.finished_before) / to_do : 1.0;
     line.update("sweep", fraction, fmt::format("{}, {} running{}{}", verdict(progress), progress.running, progress.last.empty() ? "" : "; ", progress.last));
   };
-  end.complete = execute_sweep(folder, plan, {.jobs = options.jobs, .progress = report, .stop = [] { return stop_requested != 0; }});
+  end.complete = execute_sweep(folder, plan, {.jobs = options.jobs, .progress = report, .stop = [&stop] { return stop.requested(); }});
   return end;
 }
 
