@@ -195,7 +195,6 @@ Config default_config(std::string_view preset) {
   config.purse_string.tether_law = TetherLaw::published;
   config.purse_string.capture_law = CaptureLaw::slip;
   config.purse_string.capture_search = CaptureSearch::published;
-  config.purse_string.gap_law = GapLaw::first;
   config.purse_string.event_handling = EventHandling::each_step;
   config.integrator.method = Method::euler;
   config.output.adjacency = Adjacency::string;

@@ -36,7 +36,7 @@ constexpr std::array capture_searches{
 constexpr std::array gap_laws{
     choice("span", GapLaw::span, "the distance across the whole gap: no tension"),
     choice("first", GapLaw::first,
-           "the distance across the first of them only, as the published simulations did; validation only"),
+           "the distance across the first of them only, as an older state of the published program did; validation only"),
 };
 constexpr std::array event_handlings{
     choice("auto", EventHandling::automatic, "located while events are rare, on the event grid once they storm"),

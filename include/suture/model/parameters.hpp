@@ -40,7 +40,7 @@ enum class CaptureSearch {
 /// Rest length of the spring that closes the gap of consecutive tethers that yield together.
 enum class GapLaw {
   span,   ///< the distance across the whole gap
-  first,  ///< published slip: the distance to the first of the vertices that yield and its successor, whatever comes then
+  first,  ///< the distance to the vertex behind the first that yields, whether it yields too or not (older published program)
 };
 
 /// When discrete events of the purse string are processed.

@@ -74,7 +74,7 @@ TEST_CASE("presets are bundles of defaults that explicit keys override in any or
   CHECK(published.purse_string.tether_law == TetherLaw::published);
   CHECK(published.purse_string.capture_law == CaptureLaw::slip);
   CHECK(published.purse_string.capture_search == CaptureSearch::published);
-  CHECK(published.purse_string.gap_law == GapLaw::first);
+  CHECK(published.purse_string.gap_law == GapLaw::span);
   CHECK(published.purse_string.event_handling == EventHandling::each_step);
   CHECK(published.integrator.method == Method::euler);
   CHECK_FALSE(published.integrator.time_step.has_value());
