@@ -77,6 +77,8 @@ std::vector<ConfigKey<Config>> purse_string_keys() {
                                                 "which vertices are captured and where they join the string"),
       key<&C::purse_string, &P::search_steps>(section, "search_steps", pure_number, between(1, largest_integer),
                                               "integrator steps between the flood fills of capture_search = \"published\""),
+      key<&C::purse_string, &P::capture_steps>(section, "capture_steps", pure_number, between(1, largest_integer),
+                                               "integrator steps after which the vertices it found are offered to the string"),
       key<&C::purse_string, &P::gap_law>(section, "gap_law", pure_number, anything,
                                          "rest length of the spring that closes the gap when neighbouring tethers break together"),
       key<&C::purse_string, &P::event_handling>(section, "event_handling", pure_number, anything,

@@ -57,7 +57,7 @@ ClosureEvents::ClosureEvents(const Config& config, const Membrane& membrane, dou
       start_(start_time),
       interval_(config.purse_string.event_interval),
       gauge_(config.purse_string.event_handling),
-      search_(membrane, config.purse_string.search_steps) {}
+      search_(membrane, config.purse_string.search_steps, config.purse_string.capture_steps) {}
 
 /// Earliest crossing of any watched event function inside the step, by bisection on the interpolant. A tether that
 /// crosses and comes back within one step is not an event: the step's own accuracy does not resolve it.
@@ -135,7 +135,7 @@ std::optional<DueEvents> ClosureEvents::after_step(const Integrator& integrator,
   const StateView view(state.layout(), integrator.state());
   if (!search_.step(integrator.time(), state, view)) return std::nullopt;
   DueEvents due{integrator.time(), due_events(state.purse_string, view, thresholds_), false};
-  due.captures = parameters_.capture && search_.finds_untethered(state.purse_string);
+  due.captures = parameters_.capture && search_.offers_untethered(state.purse_string);
   if (due.tethers.empty() && !due.captures) return std::nullopt;
   return due;
 }

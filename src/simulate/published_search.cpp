@@ -24,7 +24,7 @@ bool PublishedSearch::step(double t, const TissueState& state, const StateView& 
   if (t == last_time_) return false;
   last_time_ = t;
   if (cells_.empty()) start(state, view);
-  if (++steps_ % interval_ != 0) return true;
+  if (++steps_ % fill_interval_ != 0) return true;
   wound_.update(state.tissue, view);
   vertices_.clear();
   for (int v = 0; v < state.tissue.vertex_count(); ++v)
@@ -32,8 +32,8 @@ bool PublishedSearch::step(double t, const TissueState& state, const StateView& 
   return true;
 }
 
-bool PublishedSearch::finds_untethered(const PurseString& string) const {
-  return std::any_of(vertices_.begin(), vertices_.end(), [&](int v) {
+bool PublishedSearch::offers_untethered(const PurseString& string) const {
+  return steps_ % offer_interval_ == 0 && std::any_of(vertices_.begin(), vertices_.end(), [&](int v) {
     return std::find(string.vertex.begin(), string.vertex.end(), v) == string.vertex.end();
   });
 }

@@ -1,6 +1,6 @@
 // The captures of the published program (tandrewton/dpm, epi2D::updatePurseStringContacts): a list of the vertices beside
-// the wound, made by a flood fill every so many steps; those of it that have no tether are offered to the ring after
-// every step, in the order of their numbers. A tether that breaks is thus made anew one step later.
+// the wound, made by a flood fill every so many steps; those of it that have no tether are offered to the ring every
+// so many steps, in the order of their numbers. Offered after every step, a tether that breaks is made anew one step later.
 #pragma once
 
 #include <vector>
@@ -12,12 +12,13 @@ namespace suture {
 
 class PublishedSearch {
  public:
-  PublishedSearch(const Membrane& membrane, int steps_between_fills) : wound_(membrane), interval_(steps_between_fills) {}
+  PublishedSearch(const Membrane& membrane, int steps_between_fills, int steps_between_offers)
+      : wound_(membrane), fill_interval_(steps_between_fills), offer_interval_(steps_between_offers) {}
 
   /// After a step of the integrator that ended at `t`; false if this step has been counted already.
   bool step(double t, const TissueState& state, const StateView& view);
-  /// Whether some vertex of the list has no tether.
-  bool finds_untethered(const PurseString& string) const;
+  /// Whether it is time for an offer and some vertex of the list has no tether.
+  bool offers_untethered(const PurseString& string) const;
   /// Offers them to the ring, one after the other; true if any was captured.
   bool capture(TissueState& state, CaptureLaw law, std::vector<EventRecord>& log) const;
 
@@ -30,7 +31,7 @@ class PublishedSearch {
   void start(const TissueState& state, const StateView& view);
 
   GridWound wound_;
-  int interval_;
+  int fill_interval_, offer_interval_;
   long steps_ = 0;
   double last_time_ = -1e300;
   std::vector<char> cells_;    // at the wound when the string formed: no others are captured

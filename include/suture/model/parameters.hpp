@@ -130,7 +130,8 @@ struct PurseStringParameters {
   CaptureLaw capture_law = CaptureLaw::split;
   bool capture = true;
   CaptureSearch capture_search = CaptureSearch::boundary;
-  int search_steps = 50;               ///< integrator steps between flood fills of CaptureSearch::published
+  int search_steps = 500;              ///< integrator steps between flood fills of CaptureSearch::published
+  int capture_steps = 500;             ///< integrator steps between offers of the vertices it found to the string
   GapLaw gap_law = GapLaw::span;
   int crevice_depth = 1;               ///< vertices the string follows each cell into a crevice, beyond the exposed ones
   EventHandling event_handling = EventHandling::automatic;

@@ -33,14 +33,14 @@ TissueState wound_with_gaps() {
 
 TEST_CASE("vertices are looked for at every third step and offered to the ring after every one", "[unit]") {
   TissueState state = wound_with_gaps();
-  PublishedSearch search(default_membrane(), fill_interval);
+  PublishedSearch search(default_membrane(), fill_interval, 1);
   const int before = state.purse_string.size();
   CHECK(search.step(0.1, state, state.view()));
   CHECK_FALSE(search.step(0.1, state, state.view()));  // the same step again
-  CHECK_FALSE(search.finds_untethered(state.purse_string));
+  CHECK_FALSE(search.offers_untethered(state.purse_string));
   CHECK(search.step(0.2, state, state.view()));
   CHECK(search.step(0.3, state, state.view()));
-  REQUIRE(search.finds_untethered(state.purse_string));
+  REQUIRE(search.offers_untethered(state.purse_string));
 
   std::vector<EventRecord> log;
   CHECK(search.capture(state, CaptureLaw::split, log));
@@ -59,11 +59,11 @@ TEST_CASE("vertices are looked for at every third step and offered to the ring a
 
 TEST_CASE("a search that is saved and read goes on alike", "[unit]") {
   TissueState state = wound_with_gaps();
-  PublishedSearch search(default_membrane(), fill_interval);
+  PublishedSearch search(default_membrane(), fill_interval, 1);
   for (const double t : {0.1, 0.2, 0.3, 0.4}) search.step(t, state, state.view());
   ByteWriter saved;
   search.fields(saved);
-  PublishedSearch other(default_membrane(), fill_interval);
+  PublishedSearch other(default_membrane(), fill_interval, 1);
   ByteReader reader(saved.bytes());
   other.fields(reader);
   reader.expect_end();
@@ -78,4 +78,13 @@ TEST_CASE("a search that is saved and read goes on alike", "[unit]") {
   other.capture(copy, CaptureLaw::slip, other_log);
   CHECK(log == other_log);
   CHECK(state.values == copy.values);
+}
+
+TEST_CASE("offers can be rarer than steps", "[unit]") {
+  const TissueState state = wound_with_gaps();
+  PublishedSearch search(default_membrane(), 1, 4);
+  for (int step = 1; step <= 12; ++step) {
+    search.step(0.1 * step, state, state.view());
+    CHECK(search.offers_untethered(state.purse_string) == (step % 4 == 0));
+  }
 }
