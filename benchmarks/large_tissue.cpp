@@ -115,7 +115,7 @@ void measure_large_tissues(const Settings& settings, Report& report) {
   if (settings.long_runs) sizes.push_back(100000);
   for (const int cells : sizes) {
     Packed relaxed = honeycomb_with_wound(cells, settings.smoke ? 12 : 30, settings.smoke ? 0.1 : 1.0);
-    relaxed.config.run.end_time = settings.smoke ? 0.1 : cells > 50000 ? 0.2 : 1.0;
+    relaxed.config.run.end_time = settings.smoke ? 0.1 : 2e4 / cells;
     for (const Method method : {Method::rkc2, Method::cvode})
       for (const int threads : {1, 2}) measure_one(relaxed, method, threads, report);
   }
