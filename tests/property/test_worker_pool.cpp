@@ -10,7 +10,7 @@
 
 using namespace suture;
 
-TEST_CASE("a pool runs every task once", "[unit][threads]") {
+TEST_CASE("a pool runs every task once", "[property][threads]") {
   for (const int threads : {1, 2, 3, 5}) {
     WorkerPool pool(threads);
     CHECK(pool.threads() == threads);
@@ -28,7 +28,7 @@ TEST_CASE("a pool runs every task once", "[unit][threads]") {
   CHECK(WorkerPool::alone().threads() == 1);
 }
 
-TEST_CASE("what a task throws is thrown by the pool, which stays usable", "[unit][threads]") {
+TEST_CASE("what a task throws is thrown by the pool, which stays usable", "[property][threads]") {
   for (const int threads : {1, 3}) {
     WorkerPool pool(threads);
     for (int run = 0; run < 50; ++run) {
@@ -40,7 +40,7 @@ TEST_CASE("what a task throws is thrown by the pool, which stays usable", "[unit
   }
 }
 
-TEST_CASE("ranges cover everything once, and short vectors are not divided", "[unit][threads]") {
+TEST_CASE("ranges cover everything once, and short vectors are not divided", "[property][threads]") {
   for (const std::size_t n : {0u, 1u, 8u, 98303u, 98304u, 500001u, 40000003u}) {
     const Ranges ranges = vector_ranges(n);
     REQUIRE(ranges.count() <= most_vector_ranges);
@@ -55,7 +55,7 @@ TEST_CASE("ranges cover everything once, and short vectors are not divided", "[u
   }
 }
 
-TEST_CASE("long vector operations have the same bits for every number of threads", "[unit][threads]") {
+TEST_CASE("long vector operations have the same bits for every number of threads", "[property][threads]") {
   constexpr std::size_t n = 200000;
   std::vector<double> x(n), y(n), z(n), expected(n);
   for (std::size_t k = 0; k < n; ++k) x[k] = std::sin(1.3 * static_cast<double>(k)), y[k] = std::cos(0.7 * static_cast<double>(k));
