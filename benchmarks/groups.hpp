@@ -15,6 +15,8 @@ void measure_closures(const Settings& settings, Report& report, const Packed& wo
 void measure_ladders(const Settings& settings, Report& report, const Packed& wounded);
 /// Cases B, C and D of the design: methods against a reference.
 void measure_cases(const Settings& settings, Report& report, const Packed& wounded);
+/// Closures of honeycombs of 10^3, 10^4 and (long) 10^5 cells, by one and two threads: time, memory, counts.
+void measure_large_tissues(const Settings& settings, Report& report);
 /// Actual over requested error on the grid of k_a and tau.
 void measure_tolerance_grid(const Settings& settings, Report& report, const Packed& wounded);
 

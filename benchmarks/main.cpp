@@ -12,11 +12,12 @@ namespace suture::benchmark {
 
 namespace {
 
-constexpr const char* group_names[] = {"kernels", "packing", "closures", "ladders", "cases", "grid"};
+constexpr const char* group_names[] = {"kernels", "packing", "closures", "ladders", "cases", "grid", "large"};
 
 void measure(const Settings& settings, Report& report) {
   if (settings.wants("kernels")) measure_kernels(settings, report);
   if (settings.wants("packing")) measure_packing(settings, report);
+  if (settings.wants("large")) measure_large_tissues(settings, report);
   const bool smooth = settings.wants("ladders") || settings.wants("cases") || settings.wants("grid");
   if (!smooth && !settings.wants("closures")) return;
   const Packed wounded = wounded_tissue(settings.smoke);
@@ -38,7 +39,7 @@ int main(int argc, char** argv) {
   program.add_option("--repeats", settings.repeats, "medians over so many")->check(CLI::Range(1, 1000))->capture_default_str();
   program.add_flag("--long", settings.long_runs, "whole closures, full horizons, largest tissues");
   program.add_flag("--smoke", settings.smoke, "everything once, on the smallest problems");
-  program.add_option("--groups", settings.groups, "kernels, packing, closures, ladders, cases, grid [all]")
+  program.add_option("--groups", settings.groups, "kernels, packing, closures, ladders, cases, grid, large [all]")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(group_names), std::end(group_names))));
   program.add_option("--json", json, "file for the results")->capture_default_str();

@@ -24,6 +24,10 @@ Packed packed_tissue(int cells, int vertices, bool rough = false);
 /// Shifted copies of a packed disc, side by side without touching, `copies` in all.
 TissueState tiled(const TissueState& patch, int copies, double contact_distance);
 
+/// `cells` regular hexagons of area 1 at the contact distance from each other, those 19 in the middle left out, relaxed
+/// without a string.
+Packed honeycomb_with_wound(int cells, int vertices, double relaxation_time);
+
 /// A relaxed wound: examples/embryo.toml (seed 1, 50 cells less 5) or, for a smoke test, examples/small.toml.
 Packed wounded_tissue(bool small);
 

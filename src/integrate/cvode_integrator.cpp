@@ -54,7 +54,7 @@ class CvodeIntegrator final : public Integrator {
   IntegratorOptions options_;
   MinimisingNewton newton_;
   SUNContext context_ = nullptr;
-  std::shared_ptr<VectorFamily> family_ = std::make_shared<VectorFamily>();
+  std::shared_ptr<VectorFamily> family_;
   N_Vector y_ = nullptr, psi_ = nullptr, interpolated_ = nullptr;
   SUNNonlinearSolver solver_ = nullptr;
   void* cvode_ = nullptr;
@@ -71,6 +71,7 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
     : system_(&system),
       options_(options),
       newton_(system, {.weight = 1.0 / options.position_tolerance, .largest_move = options.largest_move}),
+      family_(std::make_shared<VectorFamily>(system.workers())),
       time_(t),
       unconverged_(y.size()) {
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
@@ -160,7 +161,7 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
     return SUN_NLS_CONV_RECVR;
   }
   system_->recover_memory(out.first(n), out.subspan(n));
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] -= start[k];
+  N_VLinearSum(1.0, correction, -1.0, predicted, correction);
   return SUN_NLS_SUCCESS;
 }
 

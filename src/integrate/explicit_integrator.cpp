@@ -7,7 +7,7 @@
 namespace suture {
 
 ExplicitIntegrator::ExplicitIntegrator(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y, int order)
-    : system_(&system), options_(options), order_(order), time_(t), y_(y.begin(), y.end()) {
+    : system_(&system), operations_(system.workers()), options_(options), order_(order), time_(t), y_(y.begin(), y.end()) {
   for (auto* v : {&f_, &y_before_, &f_before_, &y_next_, &f_next_}) v->resize(y.size());
   evaluate_or_fail(t, y_, f_);
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "integrate/vector_operations.hpp"
 #include "suture/errors.hpp"
 #include "suture/integrate/integrator.hpp"
 
@@ -32,7 +33,24 @@ class ExplicitIntegrator : public Integrator {
   virtual void resize(std::size_t) {}
   [[noreturn]] void fail(const std::string& what, double h, std::span<const double> errors) const;
 
+  /// out[k] = value(k) for every component. Numbers are captured by value: then the loop can keep them in registers.
+  template <class Value>
+  void fill(std::vector<double>& out, const Value& value) const {
+    operations_.for_each_range(out.size(), [&](Range r) {
+      const Value own = value;
+      for (std::size_t k = r.begin; k < r.end; ++k) out[k] = own(k);
+    });
+  }
+  double square_sum(std::span<const double> v) const {
+    return operations_.sum(v.size(), [&](Range r) {
+      double s = 0.0;
+      for (std::size_t k = r.begin; k < r.end; ++k) s += v[k] * v[k];
+      return s;
+    });
+  }
+
   OdeSystem* system_;
+  VectorOperations operations_;
   IntegratorOptions options_;
   int order_;
   double time_, last_step_ = 0.0;

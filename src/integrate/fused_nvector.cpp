@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "kernels/aligned_buffer.hpp"
-#include "kernels/kernels.hpp"
 
 namespace suture {
 
@@ -29,12 +28,14 @@ struct Content {
 Content& content(N_Vector v) { return *static_cast<Content*>(v->content); }
 double* data(N_Vector v) { return content(v).data; }
 std::size_t padded(N_Vector v) { return content(v).padded; }
-const kernels::Table& kernel() { return kernels::best(); }
+const VectorOperations& operations(N_Vector v) { return content(v).family->operations; }
 
 template <class F>
 void each(N_Vector z, F f) {
-  double* out = data(z);
-  for (std::size_t k = 0; k < content(z).size; ++k) out[k] = f(k);
+  operations(z).for_each_range(content(z).size, [f, out = data(z)](Range r) {
+    const F own = f;
+    for (std::size_t k = r.begin; k < r.end; ++k) out[k] = own(k);
+  });
 }
 
 N_Vector clone(N_Vector v) { return make_fused_vector(content(v).size, v->sunctx, content(v).family); }
@@ -48,27 +49,27 @@ void destroy(N_Vector v) {
 
 void fill_standard_operations(N_Vector_Ops ops) {
   ops->nvlinearsum = [](double a, N_Vector x, double b, N_Vector y, N_Vector z) {
-    kernel().linear_sum(padded(z), a, data(x), b, data(y), data(z));
+    operations(z).linear_sum(padded(z), a, data(x), b, data(y), data(z));
   };
-  ops->nvconst = [](double c, N_Vector z) { std::fill_n(data(z), content(z).size, c); };
+  ops->nvconst = [](double c, N_Vector z) { each(z, [c](auto) { return c; }); };
   ops->nvprod = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] * b[k]; }); };
   ops->nvdiv = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] / b[k]; }); };
   ops->nvscale = [](double c, N_Vector x, N_Vector z) { each(z, [a = data(x), c](auto k) { return c * a[k]; }); };
   ops->nvabs = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return std::abs(a[k]); }); };
   ops->nvinv = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return 1.0 / a[k]; }); };
   ops->nvaddconst = [](N_Vector x, double b, N_Vector z) { each(z, [a = data(x), b](auto k) { return a[k] + b; }); };
-  ops->nvdotprod = [](N_Vector x, N_Vector y) { return kernel().dot(padded(x), data(x), data(y)); };
+  ops->nvdotprod = [](N_Vector x, N_Vector y) { return operations(x).dot(padded(x), data(x), data(y)); };
   ops->nvmaxnorm = [](N_Vector x) {
     double m = 0.0;
     for (const double a : values(x)) m = std::max(m, std::abs(a));
     return m;
   };
   ops->nvwrmsnorm = [](N_Vector x, N_Vector w) {
-    return std::sqrt(kernel().weighted_square_sum(padded(x), data(x), data(w)) / static_cast<double>(content(x).size));
+    return std::sqrt(operations(x).weighted_square_sum(padded(x), data(x), data(w)) / static_cast<double>(content(x).size));
   };
 }
 
-constexpr int most_vectors = 16;  // CVODE combines at most 13 (Adams, order 12)
+constexpr int most_vectors = VectorOperations::most_vectors;
 
 std::array<double*, most_vectors> pointers(int count, N_Vector* x) {
   std::array<double*, most_vectors> p{};
@@ -79,12 +80,12 @@ std::array<double*, most_vectors> pointers(int count, N_Vector* x) {
 void fill_fused_operations(N_Vector_Ops ops) {
   ops->nvlinearcombination = [](int count, double* c, N_Vector* x, N_Vector z) {
     if (count > most_vectors) return -1;
-    kernel().linear_combination(padded(z), count, c, pointers(count, x).data(), data(z));
+    operations(z).linear_combination(padded(z), count, c, pointers(count, x).data(), data(z));
     return 0;
   };
   ops->nvscaleaddmulti = [](int count, double* a, N_Vector x, N_Vector* y, N_Vector* z) {
     if (count > most_vectors) return -1;
-    kernel().scale_add_multi(padded(x), count, a, data(x), pointers(count, y).data(), pointers(count, z).data());
+    operations(x).scale_add_multi(padded(x), count, a, data(x), pointers(count, y).data(), pointers(count, z).data());
     return 0;
   };
 }

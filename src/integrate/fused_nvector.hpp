@@ -8,12 +8,16 @@
 #include <span>
 #include <vector>
 
+#include "integrate/vector_operations.hpp"
+
 namespace suture {
 
 /// A vector and all its clones, in the order in which they were made. An event that changes the size of the system
 /// rearranges all of them at once.
 struct VectorFamily {
+  explicit VectorFamily(WorkerPool& workers = WorkerPool::alone()) : operations(workers) {}
   std::vector<N_Vector> members;
+  VectorOperations operations;
   /// Every member becomes new[k] = old[source[k]].
   void rearrange(std::span<const int> source);
 };

@@ -6,7 +6,7 @@
 namespace suture {
 
 MinimisingNewton::MinimisingNewton(GradientFlowSystem& system, const NewtonOptions& options)
-    : system_(&system), kernel_(&kernels::best()), options_(options) {
+    : system_(&system), operations_(system.workers()), options_(options) {
   allocate();
 }
 
@@ -49,7 +49,7 @@ void MinimisingNewton::refresh(double gamma) {
 }
 
 void MinimisingNewton::conjugate_gradients(double fz, double target) {
-  const kernels::Table& k = *kernel_;
+  const VectorOperations& k = operations_;
   std::fill_n(d_, n_, 0.0);
   k.linear_sum(padded_, -1.0, f_, 0.0, f_, r_);
   k.linear_sum(padded_, -1.0, z_, 0.0, z_, p_);
@@ -77,7 +77,7 @@ void MinimisingNewton::conjugate_gradients(double fz, double target) {
 }
 
 bool MinimisingNewton::line_search() {
-  const kernels::Table& k = *kernel_;
+  const VectorOperations& k = operations_;
   double largest = 0.0;
   for (std::size_t i = 0; i < n_; ++i) largest = std::max(largest, std::abs(d_[i]));
   if (largest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / largest, d_, 0.0, d_, d_);
@@ -102,7 +102,7 @@ bool MinimisingNewton::line_search() {
 }
 
 NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const NewtonTarget& target) {
-  const kernels::Table& k = *kernel_;
+  const VectorOperations& k = operations_;
   const double wanted = 0.5 * target.tolerance;
   std::copy_n(q.data(), n_, q_);
   std::copy_n(q.data(), n_, start_);

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "integrate/vector_operations.hpp"
 #include "kernels/aligned_buffer.hpp"
-#include "kernels/kernels.hpp"
 #include "suture/ode/ode_system.hpp"
 
 namespace suture {
@@ -59,7 +59,7 @@ class MinimisingNewton {
   bool line_search();
 
   GradientFlowSystem* system_;
-  const kernels::Table* kernel_;
+  VectorOperations operations_;
   NewtonOptions options_;
   std::size_t n_ = 0, padded_ = 0;
   AlignedBuffer buffer_;

@@ -38,20 +38,14 @@ class Rkc2 final : public ExplicitIntegrator {
 
 double Rkc2::norm(std::span<const double> v) const {
   const std::size_t n = system_->position_count();
-  double positions = 0.0, rest = 0.0;
-  for (std::size_t k = 0; k < n; ++k) positions += v[k] * v[k];
-  for (std::size_t k = n; k < v.size(); ++k) rest += v[k] * v[k];
+  const double positions = square_sum(v.first(n)), rest = square_sum(v.subspan(n));
   const double p = options_.position_tolerance, r = options_.rest_length_tolerance;
   return std::sqrt((positions / (p * p) + rest / (r * r)) / static_cast<double>(v.size()));
 }
 
 /// Nonlinear power iteration, started from the previous eigenvector.
 void Rkc2::estimate_spectral_radius() {
-  const auto length = [](const std::vector<double>& v) {
-    double s = 0.0;
-    for (const double a : v) s += a * a;
-    return std::sqrt(s);
-  };
+  const auto length = [this](const std::vector<double>& v) { return std::sqrt(square_sum(v)); };
   const double scale = std::sqrt(static_cast<double>(y_.size())) * 1e-3 * options_.position_tolerance;
   double size = length(direction_);
   if (!(size > 0.0)) {
@@ -60,9 +54,9 @@ void Rkc2::estimate_spectral_radius() {
   }
   double estimate = 0.0;
   for (int iteration = 0; iteration < 50; ++iteration) {
-    for (std::size_t k = 0; k < y_.size(); ++k) stage_a_[k] = y_[k] + scale / size * direction_[k];
+    fill(stage_a_, [=, this](std::size_t k) { return y_[k] + scale / size * direction_[k]; });
     if (evaluate(time_, stage_a_, stage_f_) != Evaluation::ok) break;
-    for (std::size_t k = 0; k < y_.size(); ++k) direction_[k] = stage_f_[k] - f_[k];
+    fill(direction_, [=, this](std::size_t k) { return stage_f_[k] - f_[k]; });
     size = length(direction_);
     const double before = estimate;
     estimate = size / scale;
@@ -75,9 +69,9 @@ void Rkc2::estimate_spectral_radius() {
 
 double Rkc2::first_step() {
   double h = std::min(1.0 / radius_, options_.maximum_step > 0.0 ? options_.maximum_step : 1e300);
-  for (std::size_t k = 0; k < y_.size(); ++k) stage_a_[k] = y_[k] + h * f_[k];
+  fill(stage_a_, [=, this](std::size_t k) { return y_[k] + h * f_[k]; });
   if (evaluate(time_ + h, stage_a_, stage_f_) != Evaluation::ok) return 0.1 * h;
-  for (std::size_t k = 0; k < y_.size(); ++k) stage_f_[k] = h * (stage_f_[k] - f_[k]);
+  fill(stage_f_, [=, this](std::size_t k) { return h * (stage_f_[k] - f_[k]); });
   const double error = norm(stage_f_);
   return error > 0.01 ? 0.1 * h / std::sqrt(error) : h;
 }
@@ -99,10 +93,9 @@ bool Rkc2::stages(double h, int s) {
   double bj2 = b2, bj1 = b2;
   t0 = 1.0, t1 = w0;
   double mu1 = bj1 * w1;
-  const std::size_t n = y_.size();
   std::vector<double>*previous = &stage_a_, *current = &stage_b_;  // Y_{j-2}, Y_{j-1}
-  std::copy(y_.begin(), y_.end(), previous->begin());
-  for (std::size_t k = 0; k < n; ++k) (*current)[k] = y_[k] + mu1 * h * f_[k];
+  fill(*previous, [=, this](std::size_t k) { return y_[k]; });
+  fill(*current, [=, this](std::size_t k) { return y_[k] + mu1 * h * f_[k]; });
   double c_previous = 0.0, c_current = mu1;
   for (int j = 2; j <= s; ++j) {
     const double t2 = 2.0 * w0 * t1 - t0, d2 = 2.0 * t1 + 2.0 * w0 * d1 - d0, dd2 = 4.0 * d1 + 2.0 * w0 * dd1 - dd0;
@@ -111,8 +104,9 @@ bool Rkc2::stages(double h, int s) {
     const double gammat = -(1.0 - bj1 * t1) * mut;
     if (evaluate(time_ + c_current * h, *current, stage_f_) != Evaluation::ok) return false;
     std::vector<double>& out = j == s ? y_next_ : *previous;
-    for (std::size_t k = 0; k < n; ++k)
-      out[k] = (1.0 - mu - nu) * y_[k] + mu * (*current)[k] + nu * (*previous)[k] + h * (mut * stage_f_[k] + gammat * f_[k]);
+    fill(out, [=, this](std::size_t k) {
+      return (1.0 - mu - nu) * y_[k] + mu * (*current)[k] + nu * (*previous)[k] + h * (mut * stage_f_[k] + gammat * f_[k]);
+    });
     const double c_next = mu * c_current + nu * c_previous + mut + gammat;
     c_previous = c_current, c_current = c_next;
     std::swap(previous, current);
@@ -123,8 +117,7 @@ bool Rkc2::stages(double h, int s) {
 }
 
 double Rkc2::error_norm(double h) {
-  for (std::size_t k = 0; k < y_.size(); ++k)
-    errors_[k] = 0.8 * (y_[k] - y_next_[k]) + 0.4 * h * (f_[k] + f_next_[k]);
+  fill(errors_, [=, this](std::size_t k) { return 0.8 * (y_[k] - y_next_[k]) + 0.4 * h * (f_[k] + f_next_[k]); });
   return norm(errors_);
 }
 

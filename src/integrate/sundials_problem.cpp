@@ -14,7 +14,7 @@ namespace suture {
 SundialsProblem::SundialsProblem(OdeSystem& system, const IntegratorOptions& options, std::span<const double> start)
     : system_(&system), options_(options) {
   if (SUNContext_Create(nullptr, &context) != 0) throw NumericalError("SUNDIALS: no context");
-  const auto family = std::make_shared<VectorFamily>();
+  const auto family = std::make_shared<VectorFamily>(system.workers());
   y = make_fused_vector(start.size(), context, family);
   scratch = make_fused_vector(start.size(), context, family);
   std::copy(start.begin(), start.end(), values(y).begin());

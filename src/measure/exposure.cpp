@@ -22,18 +22,16 @@ Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, do
 }
 
 bool inside_other_cell(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, int own_cell, Point p) {
-  for (int cell = 0; cell < tissue.cell_count(); ++cell) {
-    const BoundingBox& box = grid.box(cell);
-    if (cell == own_cell || p.x < box.x_low || p.x > box.x_high || p.y < box.y_low || p.y > box.y_high) continue;
+  return grid.visit_boxes_at(p.x, p.y, [&](int cell) {
+    if (cell == own_cell) return false;
     bool inside = false;
     int a = tissue.end_vertex(cell) - 1;
     for (int b = tissue.first_vertex(cell); b < tissue.end_vertex(cell); a = b++)
       if ((state.y[a] > p.y) != (state.y[b] > p.y) &&
           p.x < state.x[a] + (p.y - state.y[a]) / (state.y[b] - state.y[a]) * (state.x[b] - state.x[a]))
         inside = !inside;
-    if (inside) return true;
-  }
-  return false;
+    return inside;
+  });
 }
 
 namespace {

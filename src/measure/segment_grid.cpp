@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <numeric>
 
 #include "suture/errors.hpp"
 
@@ -36,6 +37,15 @@ void SegmentGrid::measure_segments(const Tissue& tissue, const StateView& state)
   }
 }
 
+void SegmentGrid::sort_boxes() {
+  by_left_.resize(boxes_.size());
+  std::iota(by_left_.begin(), by_left_.end(), 0);
+  std::sort(by_left_.begin(), by_left_.end(), [this](int a, int b) { return boxes_[a].x_low < boxes_[b].x_low; });
+  widest_ = 0.0;
+  for (const BoundingBox& box : boxes_) widest_ = std::max(widest_, box.x_high - box.x_low);
+  widest_ *= 1.0 + 1e-9;  // beyond rounding
+}
+
 void SegmentGrid::choose_buckets(double bucket_size) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   BoundingBox all{infinity, -infinity, infinity, -infinity};
@@ -57,6 +67,7 @@ void SegmentGrid::choose_buckets(double bucket_size) {
 
 void SegmentGrid::build(const Tissue& tissue, const StateView& state, double bucket_size) {
   measure_segments(tissue, state);
+  sort_boxes();
   choose_buckets(bucket_size);
   start_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   entry_segment_.clear();

@@ -37,6 +37,18 @@ class SegmentGrid {
   double arc_position(int vertex) const { return arc_[vertex]; }
   double cell_perimeter(int cell) const { return perimeter_[cell]; }
 
+  /// Calls visit(cell) for every cell whose box holds the point; stops and returns true as soon as visit does.
+  template <typename Visit>
+  bool visit_boxes_at(double x, double y, Visit&& visit) const {
+    const auto left = [this](int cell, double value) { return boxes_[cell].x_low < value; };
+    for (auto c = std::lower_bound(by_left_.begin(), by_left_.end(), x - widest_, left); c != by_left_.end(); ++c) {
+      const BoundingBox& box = boxes_[*c];
+      if (box.x_low > x) break;
+      if (x <= box.x_high && y >= box.y_low && y <= box.y_high && visit(*c)) return true;
+    }
+    return false;
+  }
+
   /// Calls visit(segment) for every segment that may come within `reach` of the box, some of them twice; stops and
   /// returns true as soon as visit does.
   template <typename Visit>
@@ -56,10 +68,13 @@ class SegmentGrid {
   int column(double x) const { return std::clamp(static_cast<int>((x - x_low_) * inverse_bucket_), 0, columns_ - 1); }
   int row(double y) const { return std::clamp(static_cast<int>((y - y_low_) * inverse_bucket_), 0, rows_ - 1); }
   void measure_segments(const Tissue& tissue, const StateView& state);
+  void sort_boxes();
   void choose_buckets(double bucket_size);
 
   std::vector<MembraneSegment> segments_;
   std::vector<BoundingBox> boxes_;
+  std::vector<int> by_left_;  // cells by the left side of their boxes, of which none is wider than widest_
+  double widest_ = 0.0;
   std::vector<double> arc_, perimeter_;
   std::vector<int> start_, sorted_, entry_segment_, entry_bucket_;
   double x_low_ = 0.0, y_low_ = 0.0, bucket_ = 1.0, inverse_bucket_ = 1.0;

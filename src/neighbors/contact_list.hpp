@@ -2,43 +2,77 @@
 // the pairs of non-adjacent vertices of one cell. A superset of what interacts as long as no vertex has moved by more
 // than skin/2 since it was built; the extra entries contribute exactly zero, so the age of the list cannot change a
 // force by more than the rounding of a sum in another order.
+//
+// The list of a large tissue is cut into square tiles in space. The windows of a tile touch cells of the 3 x 3 tiles
+// around it only, so tiles of one colour (row and column modulo 3) touch no common cell: they can be worked on at once,
+// and colour after colour gives every sum one order, whoever works.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "kernels/kernels.hpp"
+#include "threads/worker_pool.hpp"
 
 namespace suture {
 
+/// Tiles of colour c are numbered start[c] .. start[c + 1] - 1.
+struct TileColours {
+  static constexpr int count = 9;
+  std::array<int, count + 1> start{};
+  int tiles() const { return start[count]; }
+  /// task(tile), for tiles that touch no common cell at once.
+  template <class Task>
+  void for_each_tile(WorkerPool& workers, const Task& task) const {
+    for (int c = 0; c < count; ++c) workers.for_each(start[c + 1] - start[c], [&](int k) { task(start[c] + k); });
+  }
+};
+
 class ContactList {
  public:
+  struct Tile {
+    std::vector<int> cells;  ///< ascending
+    std::vector<kernels::Window> windows;        ///< of the vertices of `cells`
+    std::vector<kernels::SelfPair> self_pairs;
+    // Scratch: neighbours of one cell; near segments of one of them, as bits and as numbers.
+    std::vector<int> neighbors, near;
+    std::vector<unsigned long long> words;
+  };
+
   ContactList() = default;
-  ContactList(double reach, double self_reach, double skin) : reach_(reach), self_reach_(self_reach), skin_(skin) {}
+  /// tiled: false keeps everything in one tile.
+  ContactList(double reach, double self_reach, double skin, bool tiled = false)
+      : reach_(reach), self_reach_(self_reach), skin_(skin), tiled_(tiled) {}
 
   /// Rebuilds from the padded positions and segments of `shell` (wrapped, segment arrays up to date).
-  void build(const kernels::Shell& shell, const kernels::Table& kernel);
+  void build(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers = WorkerPool::alone());
 
-  const std::vector<kernels::Window>& windows() const { return windows_; }
-  const std::vector<kernels::SelfPair>& self_pairs() const { return self_pairs_; }
+  const TileColours& colours() const { return colours_; }
+  const Tile& tile(int k) const { return tiles_[k]; }
   double skin() const { return skin_; }
 
  private:
   struct Box {
     double x0, y0, x1, y1;
   };
-  void find_neighbor_cells(const kernels::Shell& shell);
-  void add_windows(const kernels::Shell& shell, const kernels::Table& kernel, int cell, int slot);
-  void cut_windows(int slot, int first_slot, int n);
-  void add_self_pairs(const kernels::Shell& shell, int cell);
+  void find_boxes(const kernels::Shell& shell, WorkerPool& workers);
+  void fill_buckets();
+  void make_tiles();
+  void fill_tile(Tile& tile, const kernels::Shell& shell, const kernels::Table& kernel) const;
+  void find_neighbors(Tile& tile, int cell) const;
+  void add_windows(Tile& tile, const kernels::Shell& shell, const kernels::Table& kernel, int slot) const;
+  static void cut_windows(Tile& tile, int slot, int first_slot, int n);
+  void add_self_pairs(Tile& tile, const kernels::Shell& shell, int cell) const;
 
   double reach_ = 0.0, self_reach_ = 0.0, skin_ = 0.0;
-  std::vector<kernels::Window> windows_;
-  std::vector<kernels::SelfPair> self_pairs_;
+  bool tiled_ = false;
+  std::vector<Tile> tiles_;  // the first colours_.tiles() are in use; the others keep their memory
+  TileColours colours_;
   std::vector<Box> boxes_;
-  std::vector<int> bucket_start_, bucket_cells_, bucket_of_;  // cells sorted by the grid bucket of their box corner
-  std::vector<int> neighbor_start_, neighbors_;               // cells whose boxes come within reach + skin
-  std::vector<unsigned long long> words_;  // near segments of one cell, as bits
-  std::vector<int> near_;                  // and as numbers
+  // Cells sorted by the grid bucket of their box corner, nx_ by ny_ buckets.
+  int nx_ = 0, ny_ = 0;
+  std::vector<int> bucket_start_, bucket_cells_, bucket_of_, cursor_;
+  std::vector<int> tile_at_;  // number of the tile in each place of the grid of tiles
 };
 
 }  // namespace suture

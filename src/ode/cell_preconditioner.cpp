@@ -174,58 +174,70 @@ void CellPreconditioner::factor_area(Batch& batch, double gamma) {
   }
 }
 
-void CellPreconditioner::set_up(double gamma, std::span<const kernels::ContactFactor> contacts,
-                                std::span<const PointBlock> extra) {
-  for (Batch& batch : batches_) {
+template <class Task>
+void CellPreconditioner::for_each_batch(WorkerPool& workers, const Task& task) {
+  const Ranges ranges{batches_.size(), 8};
+  workers.for_each(ranges.count(), [&](int k) {
+    for (std::size_t b = ranges[k].begin; b < ranges[k].end; ++b) task(batches_[b]);
+  });
+}
+
+void CellPreconditioner::factor(Batch& batch, double gamma) {
+  if (batch.lanes == 1) {
+    kernel_->cyclic_factor1(batch.matrix);
+  } else {
+    kernel_->cyclic_factor8(batch.matrix);
+    factor_area(batch, gamma);
+  }
+}
+
+void CellPreconditioner::set_up(double gamma, const ContactFactors& contacts, std::span<const PointBlock> extra,
+                                WorkerPool& workers) {
+  for_each_batch(workers, [&](Batch& batch) {
     clear(batch);
     for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) add_shell(batch, static_cast<int>(lane), gamma);
-  }
-  add_contacts(gamma, contacts);
+  });
+  // Tiles at work at once touch no common cell, hence no common lane.
+  contacts.for_each_tile(workers, [&](std::span<const kernels::ContactFactor> factors) { add_contacts(gamma, factors); });
   add_extra(gamma, extra);
-  for (Batch& batch : batches_) {
-    if (batch.lanes == 1) {
-      kernel_->cyclic_factor1(batch.matrix);
-    } else {
-      kernel_->cyclic_factor8(batch.matrix);
-      factor_area(batch, gamma);
+  for_each_batch(workers, [&](Batch& batch) { factor(batch, gamma); });
+}
+
+void CellPreconditioner::apply_ring(Batch& ring, std::span<const double> r, std::span<double> z) const {
+  const int rows = ring.matrix.rows, first = tissue_->vertex_count(), points = first + ring_size_;
+  for (int k = 0; k < rows; ++k) ring.rhs[2 * k] = r[first + k], ring.rhs[2 * k + 1] = r[points + first + k];
+  kernel_->cyclic_solve1(ring.matrix, ring.rhs);
+  for (int k = 0; k < rows; ++k) z[first + k] = ring.rhs[2 * k], z[points + first + k] = ring.rhs[2 * k + 1];
+}
+
+void CellPreconditioner::apply_cells(Batch& batch, std::span<const double> r, std::span<double> z) const {
+  const int rows = batch.matrix.rows, points = tissue_->vertex_count() + ring_size_;
+  for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) {
+    const int first = tissue_->first_vertex(batch.cell[lane]), lead = batch.lead[lane];
+    double* out = batch.rhs + lane;
+    for (int k = 0; k < rows - lead; ++k) {
+      out[2 * (lead + k) * width] = r[first + k];
+      out[(2 * (lead + k) + 1) * width] = r[points + first + k];
+    }
+  }
+  kernel_->cyclic_solve8(batch.matrix, batch.rhs);
+  double area[width] = {};
+  for (int k = 0; k < 2 * rows; ++k)
+    for (int lane = 0; lane < width; ++lane) area[lane] += batch.area_gradient[k * width + lane] * batch.rhs[k * width + lane];
+  for (int lane = 0; lane < width; ++lane) area[lane] *= batch.gain[lane];
+  for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) {
+    const int first = tissue_->first_vertex(batch.cell[lane]), lead = batch.lead[lane];
+    const double *in = batch.rhs + lane, *q = batch.area_solution + lane;
+    for (int k = 0; k < rows - lead; ++k) {
+      const int x = 2 * (lead + k) * width, y = x + width;
+      z[first + k] = in[x] - area[lane] * q[x];
+      z[points + first + k] = in[y] - area[lane] * q[y];
     }
   }
 }
 
-void CellPreconditioner::apply(std::span<const double> r, std::span<double> z) {
-  const int points = tissue_->vertex_count() + ring_size_;
-  for (Batch& batch : batches_) {
-    const int rows = batch.matrix.rows;
-    if (batch.lanes == 1) {
-      const int first = tissue_->vertex_count();
-      for (int k = 0; k < rows; ++k) batch.rhs[2 * k] = r[first + k], batch.rhs[2 * k + 1] = r[points + first + k];
-      kernel_->cyclic_solve1(batch.matrix, batch.rhs);
-      for (int k = 0; k < rows; ++k) z[first + k] = batch.rhs[2 * k], z[points + first + k] = batch.rhs[2 * k + 1];
-      continue;
-    }
-    for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) {
-      const int first = tissue_->first_vertex(batch.cell[lane]), lead = batch.lead[lane];
-      double* out = batch.rhs + lane;
-      for (int k = 0; k < rows - lead; ++k) {
-        out[2 * (lead + k) * width] = r[first + k];
-        out[(2 * (lead + k) + 1) * width] = r[points + first + k];
-      }
-    }
-    kernel_->cyclic_solve8(batch.matrix, batch.rhs);
-    double area[width] = {};
-    for (int k = 0; k < 2 * rows; ++k)
-      for (int lane = 0; lane < width; ++lane) area[lane] += batch.area_gradient[k * width + lane] * batch.rhs[k * width + lane];
-    for (int lane = 0; lane < width; ++lane) area[lane] *= batch.gain[lane];
-    for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) {
-      const int first = tissue_->first_vertex(batch.cell[lane]), lead = batch.lead[lane];
-      const double *in = batch.rhs + lane, *q = batch.area_solution + lane;
-      for (int k = 0; k < rows - lead; ++k) {
-        const int x = 2 * (lead + k) * width, y = x + width;
-        z[first + k] = in[x] - area[lane] * q[x];
-        z[points + first + k] = in[y] - area[lane] * q[y];
-      }
-    }
-  }
+void CellPreconditioner::apply(std::span<const double> r, std::span<double> z, WorkerPool& workers) {
+  for_each_batch(workers, [&](Batch& batch) { batch.lanes == 1 ? apply_ring(batch, r, z) : apply_cells(batch, r, z); });
 }
 
 }  // namespace suture

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "ode/contact_factors.hpp"
 #include "ode/padded_tissue.hpp"
 #include "suture/model/state.hpp"
 #include "suture/physics/term.hpp"
@@ -26,9 +27,9 @@ class CellPreconditioner {
   void set_ring_size(int ring_size);
 
   /// Factors at the linearisation held by `padded`, the contact factors and the extra terms' blocks.
-  void set_up(double gamma, std::span<const kernels::ContactFactor> contacts, std::span<const PointBlock> extra);
+  void set_up(double gamma, const ContactFactors& contacts, std::span<const PointBlock> extra, WorkerPool& workers);
   /// z = P^-1 r, on contiguous position vectors (all x, then all y). r and z may not alias.
-  void apply(std::span<const double> r, std::span<double> z);
+  void apply(std::span<const double> r, std::span<double> z, WorkerPool& workers);
 
  private:
   struct Batch {
@@ -49,7 +50,13 @@ class CellPreconditioner {
   void add_shell(Batch& batch, int lane, double gamma);
   void add_contacts(double gamma, std::span<const kernels::ContactFactor> contacts);
   void add_extra(double gamma, std::span<const PointBlock> extra);
+  void factor(Batch& batch, double gamma);
   void factor_area(Batch& batch, double gamma);
+  void apply_ring(Batch& ring, std::span<const double> r, std::span<double> z) const;
+  void apply_cells(Batch& batch, std::span<const double> r, std::span<double> z) const;
+  /// task(batch), several at once.
+  template <class Task>
+  void for_each_batch(WorkerPool& workers, const Task& task);
 
   const Tissue* tissue_;
   const PaddedTissue* padded_;

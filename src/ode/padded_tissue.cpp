@@ -4,11 +4,14 @@
 
 namespace suture {
 
-PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law) {
+PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law, int cells_per_block) {
   constexpr int front = 8;  // the kernels may read one slot before a cell's first
+  const auto cells = static_cast<std::size_t>(tissue.cell_count());
+  blocks_ = {cells, cells_per_block > 0 ? static_cast<std::size_t>(cells_per_block) : std::max<std::size_t>(cells, 1)};
   slots_ = front;
   for (int c = 0; c < tissue.cell_count(); ++c) {
     const int n = tissue.vertex_count(c);
+    if (c > 0 && cells_per_block > 0 && c % cells_per_block == 0) slots_ += front;  // that slot belongs to no other block
     base_.push_back(slots_);
     count_.push_back(n);
     for (int k = 0; k < n; ++k) slot_of_.push_back(slots_ + 1 + k);
@@ -23,6 +26,11 @@ PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law) {
   for (int c = 0; c < tissue.cell_count(); ++c)
     for (int k = 0; k < count_[c] + kernels::halo; ++k)
       vertex_of_[base_[c] + k] = tissue.first_vertex(c) + (k + count_[c] - 1) % count_[c];
+  shell.relative_law = law == SpringLaw::relative;
+  take_arrays(tissue);
+}
+
+void PaddedTissue::take_arrays(const Tissue& tissue) {
   area_.resize(base_.size());
   pressure_.resize(base_.size());
   area_curvature_.resize(base_.size());
@@ -39,12 +47,11 @@ PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law) {
     for (int k = 0; k < count_[c] + kernels::halo; ++k) {
       const double length = tissue.initial_rest_length(vertex_of_[base_[c] + k]);
       const double stiffness_k = tissue.material(c).membrane_stiffness;
-      stiffness[base_[c] + k] = law == SpringLaw::relative ? stiffness_k : stiffness_k / (length * length);
+      stiffness[base_[c] + k] = shell.relative_law ? stiffness_k : stiffness_k / (length * length);
     }
   shell.cells = tissue.cell_count();
   shell.base = base_.data();
   shell.count = count_.data();
-  shell.relative_law = law == SpringLaw::relative;
   shell.rest_area = rest_area_.data();
   shell.area_stiffness = area_stiffness_.data();
   shell.bending_stiffness = bending_stiffness_.data();
@@ -54,9 +61,35 @@ PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law) {
   hessian.area_curvature = area_curvature_.data();
 }
 
-void PaddedTissue::unpack(std::span<const double> values, double* padded) const {
-  const double* source = values.data();
-  for (int c = 0; c < shell.cells; ++c) {
+Range PaddedTissue::vertices_of(int block) const {
+  const Range cells = blocks_[block];
+  const auto first = static_cast<std::size_t>(vertex_of_[base_[cells.begin] + 1]);
+  return {first, static_cast<std::size_t>(vertex_of_[base_[cells.end - 1] + 1] + count_[cells.end - 1])};
+}
+
+kernels::Shell PaddedTissue::shell_of(int block) const {
+  const Range cells = blocks_[block];
+  kernels::Shell part = shell;
+  part.cells = static_cast<int>(cells.end - cells.begin);
+  part.base += cells.begin;
+  part.count += cells.begin;
+  part.rest_area += cells.begin;
+  part.area_stiffness += cells.begin;
+  part.bending_stiffness += cells.begin;
+  part.area += cells.begin;
+  return part;
+}
+
+kernels::ShellHessian PaddedTissue::hessian_of(int block) const {
+  kernels::ShellHessian part = hessian;
+  part.pressure += blocks_[block].begin;
+  part.area_curvature += blocks_[block].begin;
+  return part;
+}
+
+void PaddedTissue::unpack(std::span<const double> values, double* padded, int block) const {
+  const double* source = values.data() + vertices_of(block).begin;
+  for (std::size_t c = blocks_[block].begin; c < blocks_[block].end; ++c) {
     double* a = padded + base_[c];
     const int n = count_[c];
     std::memcpy(a + 1, source, n * sizeof(double));
@@ -66,22 +99,34 @@ void PaddedTissue::unpack(std::span<const double> values, double* padded) const 
   }
 }
 
-void PaddedTissue::pack(const double* padded, std::span<double> values) const {
-  double* target = values.data();
-  for (int c = 0; c < shell.cells; ++c) {
+void PaddedTissue::pack(const double* padded, std::span<double> values, int block) const {
+  double* target = values.data() + vertices_of(block).begin;
+  for (std::size_t c = blocks_[block].begin; c < blocks_[block].end; ++c) {
     std::memcpy(target, padded + base_[c] + 1, count_[c] * sizeof(double));
     target += count_[c];
   }
 }
 
-void PaddedTissue::fold_and_pack(double* padded, std::span<double> values) const {
-  for (int c = 0; c < shell.cells; ++c) {
+void PaddedTissue::fold_and_pack(double* padded, std::span<double> values, int block) const {
+  for (std::size_t c = blocks_[block].begin; c < blocks_[block].end; ++c) {
     double* a = padded + base_[c];
     const int n = count_[c];
     for (int k = kernels::halo - 1; k >= 1; --k) a[k] += a[n + k];
     a[n] += a[0];
   }
-  pack(padded, values);
+  pack(padded, values, block);
+}
+
+void PaddedTissue::unpack(std::span<const double> values, double* padded) const {
+  for (int b = 0; b < blocks(); ++b) unpack(values, padded, b);
+}
+
+void PaddedTissue::pack(const double* padded, std::span<double> values) const {
+  for (int b = 0; b < blocks(); ++b) pack(padded, values, b);
+}
+
+void PaddedTissue::fold_and_pack(double* padded, std::span<double> values) const {
+  for (int b = 0; b < blocks(); ++b) fold_and_pack(padded, values, b);
 }
 
 }  // namespace suture

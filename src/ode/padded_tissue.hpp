@@ -1,4 +1,5 @@
-// The padded arrays of kernels.hpp for one tissue, and the copies between them and contiguous vertex arrays.
+// The padded arrays of kernels.hpp for one tissue, and the copies between them and contiguous vertex arrays. A large tissue is
+// divided into blocks of consecutive cells that several threads may work on: no slot is touched from two of them.
 #pragma once
 
 #include <span>
@@ -7,12 +8,14 @@
 #include "kernels/aligned_buffer.hpp"
 #include "kernels/kernels.hpp"
 #include "suture/model/tissue.hpp"
+#include "threads/ranges.hpp"
 
 namespace suture {
 
 class PaddedTissue {
  public:
-  PaddedTissue(const Tissue& tissue, SpringLaw law);
+  /// cells_per_block: 0 for one block.
+  PaddedTissue(const Tissue& tissue, SpringLaw law, int cells_per_block = 0);
 
   kernels::Shell shell;
   kernels::ShellHessian hessian;
@@ -22,6 +25,17 @@ class PaddedTissue {
   int slot(int vertex) const { return slot_of_[vertex]; }
   int vertex(int slot) const { return vertex_of_[slot]; }
 
+  int blocks() const { return blocks_.count(); }
+  Range cells_of(int block) const { return blocks_[block]; }
+  Range vertices_of(int block) const;
+  /// The part of `shell`, `hessian` that belongs to one block.
+  kernels::Shell shell_of(int block) const;
+  kernels::ShellHessian hessian_of(int block) const;
+
+  // Copies, of one block (`values` are the whole tissue's) or of everything.
+  void unpack(std::span<const double> values, double* padded, int block) const;
+  void pack(const double* padded, std::span<double> values, int block) const;
+  void fold_and_pack(double* padded, std::span<double> values, int block) const;
   /// padded <- contiguous, halo included.
   void unpack(std::span<const double> values, double* padded) const;
   /// contiguous <- padded, halo ignored.
@@ -30,7 +44,10 @@ class PaddedTissue {
   void fold_and_pack(double* padded, std::span<double> values) const;
 
  private:
+  void take_arrays(const Tissue& tissue);
+
   int slots_ = 0;
+  Ranges blocks_;
   std::vector<int> base_, count_, slot_of_, vertex_of_;
   std::vector<double> rest_area_, area_stiffness_, bending_stiffness_, area_, pressure_, area_curvature_;
   AlignedBuffer buffer_;

@@ -2,7 +2,7 @@
 # Fails when a file includes a room to its right in the order below, or when a library that only one room may see leaks.
 set -eu
 cd "$(dirname "$0")/../.."
-rooms="geometry model kernels neighbors physics ode integrate measure setup io replay render view export simulate converge sweep apps"
+rooms="geometry model threads kernels neighbors physics ode integrate measure setup io replay render view export simulate converge sweep apps"
 
 rank() {
   position=0

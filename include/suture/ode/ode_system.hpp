@@ -6,6 +6,8 @@
 
 namespace suture {
 
+class WorkerPool;
+
 enum class Evaluation {
   ok,
   refused,  ///< recoverable: inverted cell, zero-length segment, non-finite value; the integrator retries a smaller step
@@ -23,6 +25,8 @@ class OdeSystem {
   virtual int position_count() const = 0;
   /// Why the last evaluation was refused, in words.
   virtual std::string refusal() const = 0;
+  /// The threads that share the work on this system, for the integrator's vectors too. Default: the caller alone.
+  virtual WorkerPool& workers();
 };
 
 /// A gradient flow with eliminable memory variables, seen by the minimising Newton solver (docs/explanation/numerics.md):

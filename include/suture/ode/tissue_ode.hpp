@@ -19,7 +19,7 @@ struct TissueOdeOptions {
   ContactParameters contact;      ///< contact.distance must be set
   bool plastic = true;            ///< false: rest lengths are frozen
   double skin = 0.13;             ///< Verlet-list skin, model units of length
-  int threads = 1;
+  int threads = 1;                ///< that share the work of a large tissue; 0: one per core. Results do not depend on it
 };
 
 class TissueOde final : public GradientFlowSystem {
@@ -42,6 +42,7 @@ class TissueOde final : public GradientFlowSystem {
   std::string component_name(int i) const override;
   int position_count() const override;
   std::string refusal() const override;
+  WorkerPool& workers() override;
 
   // GradientFlowSystem
   void begin_implicit_step(double t, double gamma, std::span<const double> psi) override;

@@ -30,10 +30,12 @@ void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 using namespace suture;
 using namespace suture::test;
 
-TEST_CASE("rate, residual, product and preconditioner allocate nothing once warm", "[unit]") {
-  TissueState state =
-      random_tissue(12, {.rows = 3, .columns = 3, .minimum_vertices = 10, .maximum_vertices = 30, .roughness = 0.1});
-  TissueOde ode(state.tissue, 0, ode_options(contact_law(0.2), SpringLaw::quadratic, true, 0.02), {});
+namespace {
+
+void check_evaluations(const TissueState& state, const ContactParameters& contact, double skin, int threads) {
+  TissueOdeOptions options = ode_options(contact, SpringLaw::quadratic, true, skin);
+  options.threads = threads;
+  TissueOde ode(state.tissue, 0, options, {});
   const int n = ode.position_count();
   std::vector<double> out(state.values.size()), a(n, 0.1), b(n);
   const auto step = random_direction(state, 1, 0.02);
@@ -59,10 +61,24 @@ TEST_CASE("rate, residual, product and preconditioner allocate nothing once warm
   const long during = allocations - before;
   CHECK(during == 0);
   CHECK(ode.list_rebuilds() == rebuilds + 6);  // rebuilding the list was part of it
+}
+
+}  // namespace
+
+TEST_CASE("rate, residual, product and preconditioner allocate nothing once warm", "[unit]") {
+  check_evaluations(random_tissue(12, {.rows = 3, .columns = 3, .minimum_vertices = 10, .maximum_vertices = 30, .roughness = 0.1}),
+                    contact_law(0.2), 0.02, 1);
   const long start = allocations;
   const std::vector<double> one(3);
   const long counted_one = allocations - start;
   CHECK(counted_one == 1);
+}
+
+TEST_CASE("nor do they when threads share a large tissue", "[unit][threads]") {
+  const TissueState state = random_tissue(
+      5, {.rows = 38, .columns = 38, .minimum_vertices = 20, .maximum_vertices = 28, .spacing = 1.0, .roughness = 0.03});
+  REQUIRE(state.tissue.vertex_count() > 32768);
+  check_evaluations(state, contact_law(0.12), 0.02, 3);
 }
 
 TEST_CASE("steps of the integrators allocate nothing once warm", "[unit]") {

@@ -42,9 +42,9 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   ContactList list(0.26, 0.2, 0.1);
   list.build(padded.shell, table);
   const kernels::ContactScalars contact = scalars(0.2, 0.1, 0.3);
-  table.contact_gradient(padded.shell, contact, list.windows().data(), list.windows().size(), list.self_pairs().data(),
-                         list.self_pairs().size());
-  std::vector<double> result{static_cast<double>(list.windows().size())};
+  table.contact_gradient(padded.shell, contact, list.tile(0).windows.data(), list.tile(0).windows.size(), list.tile(0).self_pairs.data(),
+                         list.tile(0).self_pairs.size());
+  std::vector<double> result{static_cast<double>(list.tile(0).windows.size())};
   std::vector<double> part(n);
   const auto keep = [&](double* padded_values) {
     padded.fold_and_pack(padded_values, part);
@@ -53,10 +53,10 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   keep(padded.shell.gx);
   keep(padded.shell.gy);
   table.shell_linearise(padded.shell, padded.hessian);
-  std::vector<kernels::ContactFactor> factors(16 * list.windows().size() + list.self_pairs().size());
+  std::vector<kernels::ContactFactor> factors(16 * list.tile(0).windows.size() + list.tile(0).self_pairs.size());
   const std::size_t count =
-      table.contact_linearise(padded.shell, contact, list.windows().data(), list.windows().size(),
-                              list.self_pairs().data(), list.self_pairs().size(), -100.0, factors.data());
+      table.contact_linearise(padded.shell, contact, list.tile(0).windows.data(), list.tile(0).windows.size(),
+                              list.tile(0).self_pairs.data(), list.tile(0).self_pairs.size(), -100.0, factors.data());
   REQUIRE(count > 50);
   result.push_back(static_cast<double>(count));
   std::vector<double> direction(n);

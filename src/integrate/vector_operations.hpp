@@ -1,0 +1,71 @@
+// The kernels' vector operations on vectors that several threads may share: long ones are cut into fixed ranges, and sums
+// are added range by range, so that the number of threads changes no bit. Lengths n and paddings as in kernels.hpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "kernels/kernels.hpp"
+#include "threads/ranges.hpp"
+#include "threads/worker_pool.hpp"
+
+namespace suture {
+
+class VectorOperations {
+ public:
+  static constexpr int most_vectors = 16;  ///< in one combination; CVODE combines at most 13 (Adams, order 12)
+
+  explicit VectorOperations(WorkerPool& workers) : workers_(&workers), kernel_(&kernels::best()) {}
+
+  /// visit(Range), for ranges that together are 0 .. n-1.
+  template <class Visit>
+  void for_each_range(std::size_t n, const Visit& visit) const {
+    const Ranges ranges = vector_ranges(n);
+    workers_->for_each(ranges.count(), [&](int k) { visit(ranges[k]); });
+  }
+  /// Sum of part(Range), in the order of the ranges.
+  template <class Part>
+  double sum(std::size_t n, const Part& part) const {
+    const Ranges ranges = vector_ranges(n);
+    std::array<double, most_vector_ranges> parts;
+    workers_->for_each(ranges.count(), [&](int k) { parts[k] = part(ranges[k]); });
+    double total = ranges.count() > 0 ? parts[0] : 0.0;
+    for (int k = 1; k < ranges.count(); ++k) total += parts[k];
+    return total;
+  }
+
+  double dot(std::size_t n, const double* x, const double* y) const {
+    return sum(n, [&](Range r) { return kernel_->dot(r.end - r.begin, x + r.begin, y + r.begin); });
+  }
+  double weighted_square_sum(std::size_t n, const double* x, const double* w) const {
+    return sum(n, [&](Range r) { return kernel_->weighted_square_sum(r.end - r.begin, x + r.begin, w + r.begin); });
+  }
+  void linear_sum(std::size_t n, double a, const double* x, double b, const double* y, double* z) const {
+    for_each_range(n, [&](Range r) { kernel_->linear_sum(r.end - r.begin, a, x + r.begin, b, y + r.begin, z + r.begin); });
+  }
+  /// count <= most_vectors, here and below.
+  void linear_combination(std::size_t n, int count, const double* c, const double* const* x, double* z) const {
+    for_each_range(n, [&](Range r) {
+      kernel_->linear_combination(r.end - r.begin, count, c, shifted(count, x, r.begin).data(), z + r.begin);
+    });
+  }
+  void scale_add_multi(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z) const {
+    for_each_range(n, [&](Range r) {
+      kernel_->scale_add_multi(r.end - r.begin, count, a, x + r.begin, shifted(count, y, r.begin).data(),
+                               shifted(count, z, r.begin).data());
+    });
+  }
+
+ private:
+  template <class Pointer>
+  static std::array<Pointer, most_vectors> shifted(int count, const Pointer* x, std::size_t by) {
+    std::array<Pointer, most_vectors> p{};
+    for (int j = 0; j < count; ++j) p[j] = x[j] + by;
+    return p;
+  }
+
+  WorkerPool* workers_;
+  const kernels::Table* kernel_;
+};
+
+}  // namespace suture

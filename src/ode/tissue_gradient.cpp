@@ -1,0 +1,166 @@
+#include "ode/tissue_gradient.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace suture {
+
+namespace {
+
+constexpr int cells_per_block = 64;  // their arrays fit into the second-level cache
+
+bool divided(const Tissue& tissue) { return tissue.vertex_count() >= divided_from_vertices; }
+
+kernels::ContactScalars contact_scalars(const ContactParameters& p) {
+  const double e = p.energy, s = *p.distance, l1 = p.adhesion, l2 = p.range;
+  kernels::ContactScalars c;
+  const bool adhesive = l1 > 0.0;
+  const double cutoff = s * (adhesive ? 1.0 + l2 : 1.0), inner = s * (1.0 + l1);
+  c.cutoff2 = cutoff * cutoff;
+  c.inner2 = inner * inner;
+  c.inner_a = -2.0 * e / s;
+  c.inner_b = 2.0 * e / (s * s);
+  const double outer = adhesive ? 2.0 * e * l1 / (l2 - l1) : 0.0;
+  c.outer_a = outer * (1.0 + l2) / s;
+  c.outer_b = -outer / (s * s);
+  c.self2 = p.self_contact ? s * s : 0.0;
+  return c;
+}
+
+bool bad_segment(const kernels::Shell& s, int k) {
+  return !(s.length[k] > 0.0) | !(s.rest_a[k] + s.rest_b[k] * s.length[k] > 0.0);
+}
+
+}  // namespace
+
+TissueGradient::TissueGradient(const Tissue& tissue_in, int ring, TissueOdeOptions options_in,
+                               std::vector<std::shared_ptr<const EnergyTerm>> extra_in)
+    : tissue(tissue_in),
+      layout{tissue_in.vertex_count(), ring},
+      options(std::move(options_in)),
+      extra(std::move(extra_in)),
+      kernel(kernels::best()),
+      workers(divided(tissue) ? options.threads : 1),
+      padded(tissue, options.membrane_law, divided(tissue) ? cells_per_block : 0),
+      contact(contact_scalars(options.contact)),
+      list(std::sqrt(contact.cutoff2), std::sqrt(contact.self2), options.skin, divided(tissue)),
+      built_x_(tissue.vertex_count()),
+      built_y_(tissue.vertex_count()) {}
+
+void TissueGradient::hold_rest_lengths(std::span<const double> rest_length) {
+  workers.for_each(padded.blocks(), [&](int block) { padded.unpack(rest_length, padded.shell.rest_a, block); });
+  if (!plain_) std::fill_n(padded.shell.rest_b, padded.slots(), 0.0);
+  plain_ = true;
+}
+
+void TissueGradient::let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block) {
+  padded.unpack(rest_a, padded.shell.rest_a, block);
+  padded.unpack(rest_b, padded.shell.rest_b, block);
+  if (block == 0) plain_ = false;
+}
+
+Range TissueGradient::points_of(int block) const {
+  const Range vertices = padded.vertices_of(block);
+  return {vertices.begin, block + 1 < padded.blocks() ? vertices.end : static_cast<std::size_t>(layout.points())};
+}
+
+/// Everything that needs no other block; then a new list when somebody has moved too far.
+bool TissueGradient::shells_and_list(const StateView& state) {
+  std::atomic<bool> unhealthy = false, stale = rebuilds == 0;
+  workers.for_each(padded.blocks(), [&](int block) {
+    padded.unpack(state.x, padded.shell.x, block);
+    padded.unpack(state.y, padded.shell.y, block);
+    kernel.shell_gradient(padded.shell_of(block));
+    if (!healthy(block)) unhealthy = true;
+    if (moved(state, padded.vertices_of(block))) stale = true;
+  });
+  if (unhealthy) {
+    explain_unhealthy();
+    return false;
+  }
+  if (stale) rebuild(state);
+  return true;
+}
+
+void TissueGradient::contacts_and_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy) {
+  list.colours().for_each_tile(workers, [&](int k) {
+    const ContactList::Tile& tile = list.tile(k);
+    kernel.contact_gradient(padded.shell, contact, tile.windows.data(), tile.windows.size(), tile.self_pairs.data(),
+                            tile.self_pairs.size());
+  });
+  workers.for_each(padded.blocks(), [&](int block) {
+    padded.fold_and_pack(padded.shell.gx, gx, block);
+    padded.fold_and_pack(padded.shell.gy, gy, block);
+  });
+  std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
+  std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
+  MutableStateView gradient;
+  gradient.x = gx, gradient.y = gy;
+  for (const auto& term : extra) term->add_gradient(t, state, gradient);
+}
+
+bool TissueGradient::healthy(int block) const {
+  const kernels::Shell s = padded.shell_of(block);
+  for (int c = 0; c < s.cells; ++c)
+    if (!(s.area[c] > 0.0)) return false;
+  int failures = 0;  // counted: that loop vectorises, and there are none as a rule
+  for (int c = 0; c < s.cells; ++c)
+    for (int k = s.base[c] + 1; k <= s.base[c] + s.count[c]; ++k) failures += bad_segment(s, k);
+  return failures == 0;
+}
+
+void TissueGradient::explain_unhealthy() {
+  const kernels::Shell& s = padded.shell;
+  for (int c = 0; c < s.cells; ++c)
+    if (!(s.area[c] > 0.0)) {
+      refusal = std::isfinite(s.area[c]) ? fmt::format("cell {} is inverted (area {:.3g})", c, s.area[c])
+                                         : fmt::format("cell {} has a position that is not finite", c);
+      return;
+    }
+  int worst = 0;
+  for (int c = 0; c < s.cells; ++c)
+    for (int k = s.base[c] + 1; k <= s.base[c] + s.count[c]; ++k)
+      if (bad_segment(s, k)) worst = k;
+  refusal = fmt::format("{}: its segment has length {:.3g} and rest length {:.3g}", tissue.vertex_name(padded.vertex(worst)),
+                        s.length[worst], s.rest_a[worst] + s.rest_b[worst] * s.length[worst]);
+}
+
+bool TissueGradient::finite(std::span<const double> gx, std::span<const double> gy, Range points) {
+  bool bad = false;
+  for (std::size_t k = points.begin; k < points.end; ++k) bad |= !(std::abs(gx[k]) + std::abs(gy[k]) < 1e300);
+  return !bad;
+}
+
+/// Finished blocks are finite, so what is found is still a gradient.
+void TissueGradient::explain_infinite(std::span<const double> gx, std::span<const double> gy) {
+  for (std::size_t k = 0; k < gx.size(); ++k)
+    if (!finite(gx, gy, {k, k + 1})) {
+      refusal = fmt::format("{}: the force is not finite (two membranes meet in one point)", point_name(static_cast<int>(k)));
+      return;
+    }
+}
+
+bool TissueGradient::moved(const StateView& state, Range vertices) const {
+  const double limit = 0.25 * options.skin * options.skin;
+  bool far = false;
+  for (std::size_t k = vertices.begin; k < vertices.end; ++k) {
+    const double dx = state.x[k] - built_x_[k], dy = state.y[k] - built_y_[k];
+    far |= dx * dx + dy * dy > limit;
+  }
+  return far;
+}
+
+void TissueGradient::rebuild(const StateView& state) {
+  list.build(padded.shell, kernel, workers);
+  std::copy_n(state.x.begin(), layout.vertices, built_x_.begin());
+  std::copy_n(state.y.begin(), layout.vertices, built_y_.begin());
+  ++rebuilds;
+}
+
+std::string TissueGradient::point_name(int point) const {
+  return point < layout.vertices ? tissue.vertex_name(point) : fmt::format("purse-string vertex {}", point - layout.vertices);
+}
+
+}  // namespace suture

@@ -1,0 +1,77 @@
+// dU/dr of everything the cells feel, with the padded arrays and the contact list it needs. A large tissue is worked on in
+// blocks of consecutive cells and tiles in space, which several threads share.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "neighbors/contact_list.hpp"
+#include "ode/padded_tissue.hpp"
+#include "suture/model/state.hpp"
+#include "suture/ode/tissue_ode.hpp"
+#include "threads/worker_pool.hpp"
+
+namespace suture {
+
+class TissueGradient {
+ public:
+  TissueGradient(const Tissue& tissue, int ring, TissueOdeOptions options,
+                 std::vector<std::shared_ptr<const EnergyTerm>> extra);
+
+  /// Rest lengths as they are in a plain rate evaluation.
+  void hold_rest_lengths(std::span<const double> rest_length);
+  /// Rest lengths as functions of the lengths, one pair of coefficients per segment.
+  void let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block);
+
+  /// dU/dr at (x, y) with the rest lengths set before; gx, gy have one entry per point. finish(block) is called, for several
+  /// blocks at once, as soon as the entries of points_of(block) are final.
+  template <class Finish>
+  Evaluation evaluate(double t, const StateView& state, std::span<double> gx, std::span<double> gy, const Finish& finish) {
+    if (!shells_and_list(state)) return Evaluation::refused;
+    contacts_and_terms(t, state, gx, gy);
+    std::atomic<bool> bad = false;
+    workers.for_each(padded.blocks(), [&](int block) {
+      if (finite(gx, gy, points_of(block)))
+        finish(block);
+      else
+        bad = true;
+    });
+    if (!bad) return Evaluation::ok;
+    explain_infinite(gx, gy);
+    return Evaluation::refused;
+  }
+
+  /// Vertices of a block; with the last one, the points of the purse string.
+  Range points_of(int block) const;
+  std::string point_name(int point) const;
+
+  Tissue tissue;
+  StateLayout layout;
+  TissueOdeOptions options;
+  std::vector<std::shared_ptr<const EnergyTerm>> extra;
+  const kernels::Table& kernel;
+  WorkerPool workers;
+  PaddedTissue padded;
+  kernels::ContactScalars contact;
+  ContactList list;
+  long rebuilds = 0;
+  std::string refusal;
+
+ private:
+  bool shells_and_list(const StateView& state);
+  void contacts_and_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
+  bool healthy(int block) const;
+  void explain_unhealthy();
+  static bool finite(std::span<const double> gx, std::span<const double> gy, Range points);
+  void explain_infinite(std::span<const double> gx, std::span<const double> gy);
+  bool moved(const StateView& state, Range vertices) const;
+  void rebuild(const StateView& state);
+
+  std::vector<double> built_x_, built_y_;  // positions the list was built for
+  bool plain_ = false;                     // rest_b is zero everywhere
+};
+
+}  // namespace suture

@@ -1,0 +1,148 @@
+// A tissue large enough to be divided: the same bits for every number of threads, and the numbers of an undivided one.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <map>
+
+#include "neighbors/contact_list.hpp"
+#include "ode/padded_tissue.hpp"
+#include "support/integration.hpp"
+#include "support/random_tissue.hpp"
+#include "threads/ranges.hpp"
+
+using namespace suture;
+using namespace suture::test;
+
+namespace {
+
+constexpr double contact_distance = 0.12, skin = 0.05;
+
+TissueState large_tissue() {
+  return random_tissue(5, {.rows = 38, .columns = 38, .minimum_vertices = 20, .maximum_vertices = 28, .spacing = 1.0, .roughness = 0.03});
+}
+
+TissueOdeOptions options(int threads) {
+  TissueOdeOptions o = ode_options(contact_law(contact_distance), SpringLaw::quadratic, true, skin);
+  o.threads = threads;
+  return o;
+}
+
+/// Everything the integrators ask for, at two states that need different lists.
+std::vector<double> everything(const TissueState& state, int threads) {
+  TissueOde ode(state.tissue, 0, options(threads), {});
+  const auto n = static_cast<std::size_t>(ode.position_count());
+  std::vector<double> all, out(state.values.size()), part(n), product(n), memory(state.values.size() - n), y = state.values;
+  const auto step = random_direction(state, 1, 0.03);
+  for (int there = 0; there < 2; ++there) {
+    REQUIRE(ode.rate(0.0, y, out) == Evaluation::ok);
+    all.insert(all.end(), out.begin(), out.end());
+    ode.begin_implicit_step(0.0, 0.05, y);
+    REQUIRE(ode.residual(std::span(y).first(n), part) == Evaluation::ok);
+    ode.linearise();
+    ode.product(part, product);
+    ode.set_up_preconditioner();
+    all.insert(all.end(), product.begin(), product.end());
+    ode.precondition(part, product);
+    ode.recover_memory(std::span(y).first(n), memory);
+    for (const auto* v : {&part, &product, &memory}) all.insert(all.end(), v->begin(), v->end());
+    for (std::size_t k = 0; k < n; ++k) y[k] += step[k];
+  }
+  CHECK(ode.list_rebuilds() == 2);
+  return all;
+}
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+void load(PaddedTissue& padded, const TissueState& state) {
+  padded.unpack(state.view().x, padded.shell.x);
+  padded.unpack(state.view().y, padded.shell.y);
+  padded.unpack(state.view().rest_length, padded.shell.rest_a);
+  kernels::best().shell_gradient(padded.shell);
+}
+
+}  // namespace
+
+TEST_CASE("rate, product and preconditioner have the same bits for every number of threads", "[property][threads]") {
+  const TissueState state = large_tissue();
+  REQUIRE(state.tissue.vertex_count() > divided_from_vertices);
+  const std::vector<double> expected = everything(state, 1);
+  CHECK(largest(expected) > 1.0);
+  for (const int threads : {2, 3, 5})
+    for (int again = 0; again < 2; ++again) {
+      CAPTURE(threads);
+      CHECK(same_bits(everything(state, threads), expected));
+    }
+}
+
+TEST_CASE("integrations have the same bits for every number of threads", "[property][threads]") {
+  const TissueState state = large_tissue();
+  for (const Method method : {Method::rkc2, Method::cvode}) {
+    std::vector<double> expected;
+    for (const int threads : {1, 2, 3, 5}) {
+      TissueOde ode(state.tissue, 0, options(threads), {});
+      Statistics counts;
+      const std::vector<double> y = integrate(ode, suture::test::with_tolerance(method, 1e-3), 0.0, state.values, 0.02, &counts);
+      if (threads == 1) expected = y;
+      CAPTURE(threads, static_cast<int>(method));
+      CHECK(counts.steps >= 3);
+      CHECK(same_bits(y, expected));
+      CHECK(largest_difference(y, state.values) > 1e-3);
+    }
+  }
+}
+
+TEST_CASE("a divided tissue has the forces of an undivided one", "[property][threads]") {
+  const TissueState state = large_tissue();
+  TissueOde ode(state.tissue, 0, options(2), {});
+  std::vector<double> gradient(state.layout().size()), whole(state.tissue.vertex_count());
+  REQUIRE(ode.gradient(0.0, state.view(), MutableStateView(state.layout(), gradient)) == Evaluation::ok);
+  PaddedTissue padded(state.tissue, SpringLaw::quadratic);
+  load(padded, state);
+  ContactList list(1.3 * contact_distance, contact_distance, skin);
+  list.build(padded.shell, kernels::best());
+  REQUIRE(list.colours().tiles() == 1);
+  const ContactList::Tile& all = list.tile(0);
+  const double e = 0.5, s = contact_distance, l1 = 0.1, l2 = 0.3, outer = 2.0 * e * l1 / (l2 - l1);
+  const kernels::ContactScalars contact{s * s * (1 + l2) * (1 + l2), s * s * (1 + l1) * (1 + l1), -2 * e / s, 2 * e / (s * s),
+                                        outer * (1 + l2) / s, -outer / (s * s), s * s};
+  const ContactParameters law = contact_law(contact_distance);
+  REQUIRE((law.energy == e && law.adhesion == l1 && law.range == l2));
+  kernels::best().contact_gradient(padded.shell, contact, all.windows.data(), all.windows.size(), all.self_pairs.data(), all.self_pairs.size());
+  padded.fold_and_pack(padded.shell.gx, whole);
+  CHECK(largest_difference(whole, std::span(gradient).first(whole.size())) < 1e-12 * largest(whole));
+  CHECK(largest(whole) > 1.0);
+}
+
+TEST_CASE("tiles hold the whole contact list, and those of one colour touch no common cell", "[property][threads]") {
+  const TissueState state = large_tissue();
+  PaddedTissue padded(state.tissue, SpringLaw::quadratic);
+  load(padded, state);
+  ContactList whole(1.3 * contact_distance, contact_distance, skin), tiled(1.3 * contact_distance, contact_distance, skin, true);
+  whole.build(padded.shell, kernels::best());
+  tiled.build(padded.shell, kernels::best());
+  REQUIRE(tiled.colours().tiles() > 20);
+  const auto key = [](const kernels::Window& w) { return std::array{w.p, w.q, w.segments}; };
+  std::vector<std::array<int, 3>> expected, found;
+  for (const kernels::Window& w : whole.tile(0).windows) expected.push_back(key(w));
+  std::size_t pairs = 0;
+  int shared = 0;
+  for (int colour = 0; colour < TileColours::count; ++colour) {
+    std::map<int, int> tile_of;  // cells touched by tiles of this colour
+    for (int k = tiled.colours().start[colour]; k < tiled.colours().start[colour + 1]; ++k) {
+      pairs += tiled.tile(k).self_pairs.size();
+      for (const kernels::Window& w : tiled.tile(k).windows) {
+        found.push_back(key(w));
+        for (const int slot : {w.p, w.q})
+          shared += tile_of.try_emplace(state.tissue.cell_of(padded.vertex(slot)), k).first->second != k;
+      }
+    }
+  }
+  std::sort(expected.begin(), expected.end());
+  std::sort(found.begin(), found.end());
+  CHECK(expected.size() > 10000);
+  CHECK(found == expected);
+  CHECK(pairs == whole.tile(0).self_pairs.size());
+  CHECK(shared == 0);
+}
