@@ -43,12 +43,17 @@ class CellPreconditioner {
   };
   void make_batches();
   void allocate(Batch& batch);
-  static void clear(Batch& batch);
+  void allocate_scratch();
+  static void make_identity(Batch& batch);
   /// Adds a block at (row, column) of one lane.
   static void add(Batch& batch, int lane, int row, int column, double xx, double xy, double yx, double yy);
-  void add_shell(Batch& batch, int lane, double gamma);
-  void add_contacts(double gamma, std::span<const kernels::ContactFactor> contacts);
-  void add_extra(double gamma, std::span<const PointBlock> extra);
+  /// Contacts' and extra terms' blocks on the diagonal, per slot.
+  void sum_diagonal(std::span<const kernels::ContactFactor> contacts, std::span<const PointBlock> extra);
+  /// Copies what the batch's cells are made of into lane order.
+  void gather(Batch& batch);
+  void close_ring(Batch& batch, int lane, double gamma);
+  void set_up_cells(Batch& batch, double gamma);
+  void set_up_ring(Batch& batch, double gamma, std::span<const PointBlock> extra);
   void factor_area(Batch& batch, double gamma);
 
   const Tissue* tissue_;
@@ -56,8 +61,10 @@ class CellPreconditioner {
   const kernels::Table* kernel_;
   int ring_size_;
   std::vector<Batch> batches_;   ///< cells; the ring, when there is one, is the last
-  std::vector<int> batch_of_, lane_of_;
   std::vector<AlignedBuffer> buffers_;
+  AlignedBuffer scratch_;
+  double* diagonal_ = nullptr;   ///< (xx, xy, yy, unused) per slot
+  kernels::CellRows rows_;       ///< of one batch at a time
 };
 
 }  // namespace suture
