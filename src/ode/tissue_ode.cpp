@@ -9,6 +9,7 @@
 #include "ode/block_list.hpp"
 #include "ode/cell_preconditioner.hpp"
 #include "ode/padded_tissue.hpp"
+#include "ode/sparse_direct.hpp"
 #include "suture/errors.hpp"
 
 namespace suture {
@@ -44,7 +45,8 @@ struct TissueOde::Impl {
         padded(tissue, options.membrane_law),
         contact(contact_scalars(options.contact)),
         list(std::sqrt(contact.cutoff2), std::sqrt(contact.self2), options.skin),
-        preconditioner(tissue, padded, ring, kernel) {
+        preconditioner(tissue, padded, ring, kernel),
+        direct(tissue, padded) {
     const int vertices = tissue.vertex_count();
     for (int v = 0; v < vertices; ++v) {
       const CellMaterial& m = tissue.material(tissue.cell_of(v));
@@ -156,6 +158,9 @@ struct TissueOde::Impl {
   kernels::ContactScalars contact;
   ContactList list;
   CellPreconditioner preconditioner;
+  LinearSolver linear_solver = LinearSolver::structured;
+  SparseDirect direct;
+  bool factored_directly = false;
   std::vector<double> inverse_tau, memory, reference_length;
   std::vector<double> built_x, built_y;  // positions the list was built for
   std::vector<double> length;
@@ -270,12 +275,22 @@ void TissueOde::product(std::span<const double> v, std::span<double> out) {
   m.extra_blocks.add_product(m.gamma, m.layout, v, out);
 }
 
+void TissueOde::choose_linear_solver(LinearSolver solver) { impl_->linear_solver = solver; }
+
 void TissueOde::set_up_preconditioner() {
   Impl& m = *impl_;
-  m.preconditioner.set_up(m.gamma, {m.factors.data(), m.factor_count}, m.extra_blocks.blocks);
+  const std::span<const kernels::ContactFactor> contacts(m.factors.data(), m.factor_count);
+  m.factored_directly = m.linear_solver == LinearSolver::sparse_direct &&
+                        m.direct.factor(m.gamma, m.layout.points(), contacts, m.extra_blocks);
+  if (!m.factored_directly) m.preconditioner.set_up(m.gamma, contacts, m.extra_blocks.blocks);
 }
 
-void TissueOde::precondition(std::span<const double> r, std::span<double> z) { impl_->preconditioner.apply(r, z); }
+void TissueOde::precondition(std::span<const double> r, std::span<double> z) {
+  if (impl_->factored_directly)
+    impl_->direct.solve(r, z);
+  else
+    impl_->preconditioner.apply(r, z);
+}
 
 void TissueOde::recover_memory(std::span<const double> q, std::span<double> memory) {
   Impl& m = *impl_;
