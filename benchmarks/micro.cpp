@@ -50,6 +50,12 @@ void measure_tissue(const char* name, const Config& config, const TissueState& s
   add("product_ns", time_body(repeats, [&] { ode->product(direction, product); }).median);
   add("preconditioner_setup_ns", time_body(repeats, [&] { ode->set_up_preconditioner(); }).median);
   add("precondition_ns", time_body(repeats, [&] { ode->precondition(residual, product); }).median);
+  if (state.tissue.vertex_count() < 5000) {  // the reference path, for comparison; its memory grows with every cell's size squared
+    ode->choose_linear_solver(LinearSolver::sparse_direct);
+    add("direct_setup_ns", time_body(repeats, [&] { ode->set_up_preconditioner(); }).median);
+    add("direct_solve_ns", time_body(repeats, [&] { ode->precondition(residual, product); }).median);
+    ode->choose_linear_solver(LinearSolver::structured);
+  }
   const double skin = config.integrator.skin * state.tissue.mean_initial_rest_length();
   add("list_rebuild_ns", rebuild_seconds(*ode, state.values, skin, rate, repeats));
   report.add(std::move(m));

@@ -70,10 +70,13 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
                                  std::span<const double> y)
     : system_(&system),
       options_(options),
-      newton_(system, {.weight = 1.0 / options.position_tolerance, .largest_move = options.largest_move}),
+      newton_(system, {.weight = 1.0 / options.position_tolerance,
+                       .largest_move = options.largest_move,
+                       .always_set_up = options.linear_solver == LinearSolver::sparse_direct}),
       family_(std::make_shared<VectorFamily>(system.workers())),
       time_(t),
       unconverged_(y.size()) {
+  system.choose_linear_solver(options.linear_solver);
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
   y_ = make_fused_vector(y.size(), context_, family_);
   psi_ = make_fused_vector(y.size(), context_, family_);

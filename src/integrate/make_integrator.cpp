@@ -29,6 +29,7 @@ IntegratorOptions integrator_options(const Config& config, double rest_length) {
   options.time_step = p.time_step.value_or(0.01 * rest_length / std::sqrt(std::max(config.area.stiffness, 1e-3)));
   options.maximum_step = std::isfinite(p.maximum_step) ? p.maximum_step : 0.0;
   options.maximum_order = p.maximum_order;
+  options.linear_solver = p.linear_solver;
   options.keep_history = p.keep_history;
   options.vertex_mass = p.vertex_mass;
   options.switch_stages = p.switch_stages;

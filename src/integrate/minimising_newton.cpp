@@ -48,6 +48,15 @@ void MinimisingNewton::refresh(double gamma) {
   last_linear_ = 0;
 }
 
+double MinimisingNewton::linearise(double gamma, double fz) {
+  system_->linearise();
+  ++counts_.hessians;
+  if (!options_.always_set_up) return fz;
+  refresh(gamma);
+  system_->precondition(span(f_), span(z_));
+  return operations_.dot(padded_, f_, z_);
+}
+
 void MinimisingNewton::conjugate_gradients(double fz, double target) {
   const VectorOperations& k = operations_;
   std::fill_n(d_, n_, 0.0);
@@ -122,7 +131,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   double error = 0.0;
   for (int iteration = 0; iteration <= options_.maximum_iterations; ++iteration) {
     system_->precondition(span(f_), span(z_));
-    const double fz = k.dot(padded_, f_, z_);
+    double fz = k.dot(padded_, f_, z_);
     error = norm(fz);
     const bool last = iteration == options_.maximum_iterations;
     if (error <= wanted || (last && error <= 6.0 * wanted)) {
@@ -131,10 +140,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
       return NewtonResult::converged;
     }
     if (last || !std::isfinite(error)) break;
-    if (!linearised) {
-      system_->linearise();
-      ++counts_.hessians;
-    }
+    if (!linearised) fz = linearise(gamma, fz);
     linearised = false;
     ++counts_.iterations;
     conjugate_gradients(fz, std::max(options_.forcing * error, wanted));

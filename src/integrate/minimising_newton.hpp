@@ -18,6 +18,7 @@ struct NewtonOptions {
   double largest_move = 0.06;   ///< of any component in one iteration, model units of length (half a membrane segment)
   int maximum_iterations = 5;
   double forcing = 0.2;         ///< conjugate gradients stop at this fraction of the residual
+  bool always_set_up = false;   ///< the preconditioner at every linearisation: one that is meant to be exact
 };
 
 /// What a solve has to meet, in weighted RMS norm.
@@ -53,6 +54,8 @@ class MinimisingNewton {
   double norm(double squared) const;
   void refresh(double gamma);
   bool preconditioner_aged(double gamma) const;
+  /// At q_. Returns F.z of the preconditioned residual z_, which a new set-up changes; fz: before.
+  double linearise(double gamma, double fz);
   /// d <- approximate solution of (I + gamma H) d = -f; z_ holds P^-1 f.
   void conjugate_gradients(double fz, double target);
   /// Moves q_ along d_; false when no acceptable state was found.

@@ -82,6 +82,8 @@ std::vector<ConfigKey<Config>> program_keys() {
                                              "highest order of the BDF and Adams formulas"),
       key<&C::integrator, &I::keep_history>("integrator", "keep_history", pure_number, anything,
                                             "an event keeps the steps behind it; false: every event starts CVODE afresh"),
+      key<&C::integrator, &I::linear_solver>("integrator", "linear_solver", pure_number, anything,
+                                             "how methods cvode and auto solve for a Newton step"),
       key<&C::integrator, &I::maximum_step>("integrator", "maximum_step", time, positive_or_infinite,
                                             "longest step of the adaptive methods"),
       key<&C::integrator, &I::time_step>("integrator", "time_step", time, positive, "step of the fixed-step methods",

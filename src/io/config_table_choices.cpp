@@ -62,6 +62,11 @@ constexpr std::array methods{
     choice("verlet", Method::verlet, "modified velocity Verlet with a fixed step; gives vertices a mass"),
     choice("rk4", Method::rk4, "classical Runge-Kutta of order 4 with a fixed step"),
 };
+constexpr std::array linear_solvers{
+    choice("structured", LinearSolver::structured, "conjugate gradients, preconditioned cell by cell"),
+    choice("sparse_direct", LinearSolver::sparse_direct,
+           "the whole matrix assembled and factored at every Newton iteration; slow, for verification"),
+};
 constexpr std::array protocols{
     choice("wound_closure", Protocol::wound_closure, "pack, anneal, ablate, relax and close a wound"),
     choice("compression", Protocol::compression, "one cell between two plates, then released (Fig. 2c)"),
@@ -107,6 +112,10 @@ std::span<const Choice> choices_of<Adjacency>() {
 template <>
 std::span<const Choice> choices_of<Method>() {
   return methods;
+}
+template <>
+std::span<const Choice> choices_of<LinearSolver>() {
+  return linear_solvers;
 }
 template <>
 std::span<const Choice> choices_of<Protocol>() {

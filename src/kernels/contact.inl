@@ -152,6 +152,23 @@ void contact_product(const ContactFactor* factors, std::size_t count, const doub
   }
 }
 
+void contact_diagonal(const ContactFactor* factors, std::size_t count, double* blocks) {
+  typedef double Pair __attribute__((vector_size(16), may_alias));  // a register everywhere
+  auto* at = reinterpret_cast<Pair*>(blocks);
+  for (std::size_t k = 0; k < count; ++k) {
+    const ContactFactor& f = factors[k];
+    const double ax = f.na * f.nx, s = 1.0 - f.t;
+    const Pair first = {ax * f.nx, ax * f.ny}, second = {f.na * f.ny * f.ny, 0.0};
+    const auto add = [&](int slot, double weight) {
+      at[2 * slot] += weight * first;
+      at[2 * slot + 1] += weight * second;
+    };
+    add(f.p, 1.0);
+    add(f.q, s * s);
+    add(f.q + 1, f.t * f.t);
+  }
+}
+
 void near_segments(const Shell& s, int cell, double px, double py, double reach2, unsigned long long* words) {
   const int b = s.base[cell] + 1, n = s.count[cell];
   for (int k = 0; k < n; k += lanes) {

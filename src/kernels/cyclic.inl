@@ -24,20 +24,48 @@ inline double maximum(double a, double b) { return a > b ? a : b; }
 
 inline double select(bool m, double a, double b) { return m ? a : b; }
 inline bool less(double a, double b) { return a < b; }
+inline bool any(bool a) { return a; }
 
 /// Inverse of the pivot `a`. One whose lowest eigenvalue is below `floor` shows an indefinite matrix: it is lifted to the
 /// scale of the diagonal block it came from, which keeps the factors definite and bounded (lifted to the floor only,
 /// they grow by coupling/floor with every row).
 template <class T>
 inline Block2<T> safe_inverse(Block2<T> a, const Block2<T>& original, double floor) {
-  const T mean = 0.5 * (a.xx + a.yy), half = 0.5 * (a.xx - a.yy);
-  const T lowest = mean - square_root(half * half + a.xy * a.xy);
-  const T scale = maximum(0.5 * (original.xx + original.yy), T{} + 1.0);
-  const T lift = select(less(lowest, floor), scale - lowest, T{});
-  a.xx += lift, a.yy += lift;
+  const T above_x = a.xx - floor, above_y = a.yy - floor;
+  const auto weak = less(above_x + above_y, T{}) | less(above_x * above_y, a.xy * a.xy);
+  if (any(weak)) [[unlikely]] {  // square roots are slow, and every row waits for the one before
+    const T mean = 0.5 * (a.xx + a.yy), half = 0.5 * (a.xx - a.yy);
+    const T lowest = mean - square_root(half * half + a.xy * a.xy);
+    const T scale = maximum(0.5 * (original.xx + original.yy), T{} + 1.0);
+    const T lift = select(weak, scale - lowest, T{});
+    a.xx += lift, a.yy += lift;
+  }
   const T inverse = 1.0 / (a.xx * a.yy - a.xy * a.xy);
   return {a.yy * inverse, -a.xy * inverse, -a.xy * inverse, a.xx * inverse};
 }
+
+/// The border's elimination, column by column behind the band's.
+template <class T>
+struct BorderRows {
+  Block2<T>* row[2];
+  Block2<T> pivot[2], coupling;
+  Block2<T> w1[2]{}, w2[2]{};  ///< the two previous blocks before scaling by the pivot
+
+  inline void eliminate(int j, const Block2<T>* d, const Block2<T>* l1, const Block2<T>* l2) {
+    Block2<T> w[2];
+    for (int k = 0; k < 2; ++k) {
+      w[k] = row[k][j];
+      if (j >= 1) w[k] = w[k] - times_transpose(w1[k], l1[j]);
+      if (j >= 2) w[k] = w[k] - times_transpose(w2[k], l2[j]);
+      row[k][j] = times(w[k], d[j]);
+      // What the next columns subtract is (scaled block) D (L row)^T = (unscaled block)(L row)^T.
+      pivot[k] = pivot[k] - times_transpose(row[k][j], w[k]);
+      w2[k] = w1[k];
+      w1[k] = w[k];
+    }
+    coupling = coupling - times_transpose(row[1][j], w[0]);
+  }
+};
 
 template <class T>
 void cyclic_factor(const CyclicBatch& m) {
@@ -45,7 +73,8 @@ void cyclic_factor(const CyclicBatch& m) {
   auto* l1 = reinterpret_cast<Block2<T>*>(m.lower1);
   auto* l2 = reinterpret_cast<Block2<T>*>(m.lower2);
   const int n = m.rows, p = n - 2;  // p band rows, then the border
-  Block2<T>* border[2] = {reinterpret_cast<Block2<T>*>(m.border), reinterpret_cast<Block2<T>*>(m.border) + n};
+  auto* rows = reinterpret_cast<Block2<T>*>(m.border);
+  BorderRows<T> border{{rows, rows + n}, {d[p], d[p + 1]}, l1[n - 1]};
   for (int i = 0; i < p; ++i) {
     const Block2<T> original = d[i];
     if (i >= 1) {
@@ -60,27 +89,11 @@ void cyclic_factor(const CyclicBatch& m) {
       d[i] = d[i] - times_transpose(l1[i], w);
     }
     d[i] = safe_inverse(d[i], original, m.floor);
+    border.eliminate(i, d, l1, l2);  // independent of the next band row: the processor does both at a time
   }
-  Block2<T> coupling = l1[n - 1];
-  const Block2<T> original[2] = {d[p], d[p + 1]};
-  Block2<T> w1[2]{}, w2[2]{};  // the two previous border blocks before scaling by the pivot
-  for (int j = 0; j < p; ++j) {
-    Block2<T> w[2];
-    for (int k = 0; k < 2; ++k) {
-      w[k] = border[k][j];
-      if (j >= 1) w[k] = w[k] - times_transpose(w1[k], l1[j]);
-      if (j >= 2) w[k] = w[k] - times_transpose(w2[k], l2[j]);
-      border[k][j] = times(w[k], d[j]);
-      // What the next columns subtract is (scaled block) D (L row)^T = (unscaled block)(L row)^T.
-      d[p + k] = d[p + k] - times_transpose(border[k][j], w[k]);
-      w2[k] = w1[k];
-      w1[k] = w[k];
-    }
-    coupling = coupling - times_transpose(border[1][j], w[0]);
-  }
-  d[p] = safe_inverse(d[p], original[0], m.floor);
-  l1[n - 1] = times(coupling, d[p]);
-  d[p + 1] = safe_inverse(d[p + 1] - times_transpose(l1[n - 1], coupling), original[1], m.floor);
+  d[p] = safe_inverse(border.pivot[0], d[p], m.floor);
+  l1[n - 1] = times(border.coupling, d[p]);
+  d[p + 1] = safe_inverse(border.pivot[1] - times_transpose(l1[n - 1], border.coupling), d[p + 1], m.floor);
 }
 
 template <class T>

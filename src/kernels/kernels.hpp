@@ -82,6 +82,15 @@ struct CyclicBatch {
   double *diagonal = nullptr, *lower1 = nullptr, *lower2 = nullptr, *border = nullptr;  ///< border: 2 * rows blocks
 };
 
+/// What the matrices of eight cells are made of, in lane order: element (row, lane) is at [row * 8 + lane], and the row
+/// before a cell's first repeats its last vertex (so there is a row -1). As in ShellHessian unless noted.
+struct CellRows {
+  double *sxx = nullptr, *sxy = nullptr, *syy = nullptr, *nx = nullptr, *ny = nullptr;
+  double *diagonal_xx = nullptr, *diagonal_xy = nullptr, *diagonal_yy = nullptr;  ///< d2U/dr2 of everything else
+  double *lead = nullptr;  ///< per lane: identity rows before the cell's first, all rows in a lane without a cell
+  double *pressure = nullptr, *bending_stiffness = nullptr;  ///< per lane
+};
+
 struct Table {
   const char* name;
   /// Lengths, angles and dU/dr of the shell; overwrites gx, gy including the halo. x, y must be padded.
@@ -94,6 +103,10 @@ struct Table {
   std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*,
                                    std::size_t, double lowest_curvature, ContactFactor* factors);
   void (*contact_product)(const ContactFactor*, std::size_t, const double* vx, const double* vy, double* ox, double* oy);
+  /// blocks: (xx, xy, yy, unused) per slot; adds the blocks that the normal curvature has on the diagonal.
+  void (*contact_diagonal)(const ContactFactor*, std::size_t, double* blocks);
+  /// Overwrites the batch by I + gamma H of one cell per lane, without the corners that close the ring.
+  void (*cell_rows8)(const CellRows&, double gamma, const CyclicBatch&);
   /// Bit mask of the segments base+1 .. base+n of one cell within `reach` of (px, py), 64 segments per word.
   void (*near_segments)(const Shell&, int cell, double px, double py, double reach2, unsigned long long* words);
   void (*cyclic_factor1)(const CyclicBatch&);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "kernels/kernels.hpp"
 #include "kernels/vector8.hpp"
 
@@ -5,6 +7,7 @@ namespace {
 
 using namespace suture::kernels;
 
+#include "kernels/cell_rows.inl"
 #include "kernels/contact.inl"
 #include "kernels/cyclic.inl"
 #include "kernels/shell.inl"
@@ -15,7 +18,7 @@ using namespace suture::kernels;
 namespace suture::kernels {
 
 const Table avx512{"avx512",           shell_gradient,    shell_linearise, shell_product,
-                    contact_gradient, contact_linearise, contact_product, near_segments,
+                    contact_gradient, contact_linearise, contact_product, contact_diagonal, cell_rows8, near_segments,
                     cyclic_factor1,   cyclic_factor8,    cyclic_solve1,   cyclic_solve8,
                     weighted_square_sum, dot, linear_sum, linear_combination, scale_add_multi};
 

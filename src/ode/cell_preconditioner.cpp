@@ -10,8 +10,17 @@ namespace suture {
 namespace {
 
 constexpr int width = 8;
+constexpr std::size_t batches_per_range = 8;
 
 }  // namespace
+
+template <class Task>
+void CellPreconditioner::for_each_batch(WorkerPool& workers, const Task& task) {
+  const Ranges ranges{batches_.size(), batches_per_range};
+  workers.for_each(ranges.count(), [&](int k) {
+    for (std::size_t b = ranges[k].begin; b < ranges[k].end; ++b) task(batches_[b], k);
+  });
+}
 
 CellPreconditioner::CellPreconditioner(const Tissue& tissue, const PaddedTissue& padded, int ring_size,
                                        const kernels::Table& kernel)
@@ -24,14 +33,10 @@ void CellPreconditioner::make_batches() {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return tissue_->vertex_count(a) < tissue_->vertex_count(b); });
-  batch_of_.resize(order.size());
-  lane_of_.resize(order.size());
   for (std::size_t k = 0; k < order.size(); k += width) {
     Batch batch;
     batch.lanes = width;
     for (std::size_t j = k; j < std::min(k + width, order.size()); ++j) {
-      batch_of_[order[j]] = static_cast<int>(batches_.size());
-      lane_of_[order[j]] = static_cast<int>(j - k);
       batch.cell.push_back(order[j]);
       batch.matrix.rows = std::max(batch.matrix.rows, tissue_->vertex_count(order[j]));
     }
@@ -39,6 +44,7 @@ void CellPreconditioner::make_batches() {
     batches_.push_back(std::move(batch));
   }
   for (Batch& batch : batches_) allocate(batch);
+  allocate_scratch();
   const int ring_size = std::exchange(ring_size_, 0);
   set_ring_size(ring_size);
 }
@@ -70,7 +76,23 @@ void CellPreconditioner::allocate(Batch& batch) {
   buffers_.push_back(std::move(buffer));
 }
 
-void CellPreconditioner::clear(Batch& batch) {
+void CellPreconditioner::allocate_scratch() {
+  int rows = 0;
+  for (const Batch& batch : batches_) rows = std::max(rows, batch.matrix.rows);
+  const std::size_t lane_order = static_cast<std::size_t>(rows + 1) * width, slots = 4 * static_cast<std::size_t>(padded_->slots());
+  const std::size_t ranges = batches_.size() / batches_per_range + 1;  // the ring may begin another one
+  scratch_ = AlignedBuffer(ranges * (8 * lane_order + 3 * width) + slots);
+  rows_.resize(ranges);
+  for (kernels::CellRows& range : rows_) {
+    for (double** array : {&range.sxx, &range.sxy, &range.syy, &range.nx, &range.ny, &range.diagonal_xx, &range.diagonal_xy,
+                           &range.diagonal_yy})
+      *array = scratch_.take(lane_order) + width;  // row -1
+    for (double** array : {&range.lead, &range.pressure, &range.bending_stiffness}) *array = scratch_.take(width);
+  }
+  diagonal_ = scratch_.take(slots);
+}
+
+void CellPreconditioner::make_identity(Batch& batch) {
   const std::size_t blocks = static_cast<std::size_t>(batch.matrix.rows) * 4 * batch.lanes;
   const kernels::CyclicBatch& m = batch.matrix;
   for (double* array : {m.diagonal, m.lower1, m.lower2, m.border}) std::fill_n(array, array == m.border ? 2 * blocks : blocks, 0.0);
@@ -103,62 +125,61 @@ void CellPreconditioner::add(Batch& batch, int lane, int row, int column, double
   block[3 * batch.lanes] += yy;
 }
 
-/// Membrane and bending in terms of segments, and the antisymmetric second derivative of the area.
-void CellPreconditioner::add_shell(Batch& batch, int lane, double gamma) {
-  const int cell = batch.cell[lane], lead = batch.lead[lane], n = tissue_->vertex_count(cell);
-  const kernels::ShellHessian& h = padded_->hessian;
-  const int b = padded_->shell.base[cell] + 1;
-  const double kb = gamma * padded_->shell.bending_stiffness[cell], half = 0.5 * gamma * h.pressure[cell];
-  for (int i = 0; i < n; ++i) {
-    const int s = b + i, here = lead + i, next = lead + (i + 1) % n, before = lead + (i + n - 1) % n;
-    const double sxx = gamma * h.sxx[s], sxy = gamma * h.sxy[s], syy = gamma * h.syy[s];
-    add(batch, lane, here, here, sxx, sxy, sxy, syy);
-    add(batch, lane, next, next, sxx, sxy, sxy, syy);
-    add(batch, lane, here, next, -sxx, -sxy + half, -sxy - half, -syy);
-    // theta_i depends on before, here, next through u = N_{i-1}, v = -(N_{i-1} + N_i), w = N_i.
-    const double ux = h.nx[s - 1], uy = h.ny[s - 1], wx = h.nx[s], wy = h.ny[s], vx = -ux - wx, vy = -uy - wy;
-    add(batch, lane, before, before, kb * ux * ux, kb * ux * uy, kb * ux * uy, kb * uy * uy);
-    add(batch, lane, here, here, kb * vx * vx, kb * vx * vy, kb * vx * vy, kb * vy * vy);
-    add(batch, lane, next, next, kb * wx * wx, kb * wx * wy, kb * wx * wy, kb * wy * wy);
-    add(batch, lane, before, here, kb * ux * vx, kb * ux * vy, kb * uy * vx, kb * uy * vy);
-    add(batch, lane, here, next, kb * vx * wx, kb * vx * wy, kb * vy * wx, kb * vy * wy);
-    add(batch, lane, before, next, kb * ux * wx, kb * ux * wy, kb * uy * wx, kb * uy * wy);
-    batch.area_gradient[(2 * here) * width + lane] = h.ax[s];
-    batch.area_gradient[(2 * here + 1) * width + lane] = h.ay[s];
+void CellPreconditioner::sum_diagonal(const ContactFactors& contacts, std::span<const PointBlock> extra, WorkerPool& workers) {
+  std::fill_n(diagonal_, 4 * static_cast<std::size_t>(padded_->slots()), 0.0);
+  // Tiles at work at once touch no common cell, hence no common slot.
+  contacts.for_each_tile(workers, [&](std::span<const kernels::ContactFactor> factors) {
+    kernel_->contact_diagonal(factors.data(), factors.size(), diagonal_);
+  });
+  for (int c = 0; c < padded_->cells(); ++c) {
+    double* a = diagonal_ + 4 * padded_->shell.base[c];
+    const int n = 4 * padded_->shell.count[c];
+    for (int k = 4 * kernels::halo - 1; k >= 4; --k) a[k] += a[n + k];
+    for (int k = 0; k < 4; ++k) a[n + k] += a[k];
   }
-}
-
-void CellPreconditioner::add_contacts(double gamma, std::span<const kernels::ContactFactor> contacts) {
-  for (const kernels::ContactFactor& f : contacts) {
-    const double xx = gamma * f.na * f.nx * f.nx, xy = gamma * f.na * f.nx * f.ny, yy = gamma * f.na * f.ny * f.ny;
-    const auto add_at = [&](int slot, double weight) {
-      const int vertex = padded_->vertex(slot), cell = tissue_->cell_of(vertex);
-      Batch& batch = batches_[batch_of_[cell]];
-      const int row = batch.lead[lane_of_[cell]] + vertex - tissue_->first_vertex(cell);
-      const double w = weight * weight;
-      add(batch, lane_of_[cell], row, row, w * xx, w * xy, w * xy, w * yy);
-    };
-    add_at(f.p, 1.0);
-    add_at(f.q, 1.0 - f.t);
-    if (f.t > 0.0) add_at(f.q + 1, f.t);
-  }
-}
-
-void CellPreconditioner::add_extra(double gamma, std::span<const PointBlock> extra) {
-  const int vertices = tissue_->vertex_count();
   for (const PointBlock& e : extra) {
-    const auto [xx, xy, yx, yy] = e.block;
-    if (e.i < vertices && e.j < vertices) {
-      if (e.i != e.j) continue;
-      const int cell = tissue_->cell_of(e.i);
-      Batch& batch = batches_[batch_of_[cell]];
-      const int row = batch.lead[lane_of_[cell]] + e.i - tissue_->first_vertex(cell);
-      add(batch, lane_of_[cell], row, row, gamma * xx, gamma * xy, gamma * yx, gamma * yy);
-    } else if (e.i >= vertices && e.j >= vertices) {
-      const int i = e.i - vertices, j = e.j - vertices;
-      add(batches_.back(), 0, i, j, gamma * xx, gamma * xy, gamma * yx, gamma * yy);
+    if (e.i != e.j || e.i >= tissue_->vertex_count()) continue;
+    double* a = diagonal_ + 4 * padded_->slot(e.i);
+    a[0] += e.block[0], a[1] += e.block[1], a[2] += e.block[3];
+  }
+}
+
+void CellPreconditioner::gather(Batch& batch, kernels::CellRows& rows) {
+  const kernels::ShellHessian& h = padded_->hessian;
+  std::fill_n(rows.lead, width, static_cast<double>(batch.matrix.rows));
+  for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) {
+    const int cell = batch.cell[lane], lead = batch.lead[lane], n = tissue_->vertex_count(cell);
+    const int slot = padded_->shell.base[cell] + 1;
+    rows.lead[lane] = lead;
+    rows.pressure[lane] = h.pressure[cell];
+    rows.bending_stiffness[lane] = padded_->shell.bending_stiffness[cell];
+    for (const auto& [from, to] : {std::pair{h.sxx, rows.sxx}, {h.sxy, rows.sxy}, {h.syy, rows.syy}, {h.nx, rows.nx}, {h.ny, rows.ny}}) {
+      double* out = to + lead * width + lane;
+      for (int k = 0; k < n; ++k) out[k * width] = from[slot + k];
+      out[-width] = from[slot + n - 1];
+    }
+    for (int k = 0; k < n; ++k) {
+      const double* from = diagonal_ + 4 * (slot + k);
+      const std::size_t row = static_cast<std::size_t>(lead + k), to = row * width + lane;
+      rows.diagonal_xx[to] = from[0], rows.diagonal_xy[to] = from[1], rows.diagonal_yy[to] = from[2];
+      batch.area_gradient[2 * row * width + lane] = h.ax[slot + k];
+      batch.area_gradient[(2 * row + 1) * width + lane] = h.ay[slot + k];
     }
   }
+}
+
+/// The couplings of the last two vertices with the first two.
+void CellPreconditioner::close_ring(Batch& batch, int lane, double gamma) {
+  const int cell = batch.cell[lane], n = tissue_->vertex_count(cell), first = batch.lead[lane], last = first + n - 1;
+  const kernels::ShellHessian& h = padded_->hessian;
+  const int s = padded_->shell.base[cell] + n;  // slot of the last vertex; s + 1 repeats the first
+  const double kb = gamma * padded_->shell.bending_stiffness[cell], half = 0.5 * gamma * h.pressure[cell];
+  const double ux = h.nx[s - 1], uy = h.ny[s - 1], wx = h.nx[s], wy = h.ny[s], qx = h.nx[s + 1], qy = h.ny[s + 1];
+  const double vx = -ux - wx, vy = -uy - wy, tx = -wx - qx, ty = -wy - qy;
+  add(batch, lane, last, first, kb * (vx * wx + wx * tx) - gamma * h.sxx[s], kb * (vx * wy + wx * ty) - gamma * h.sxy[s] + half,
+      kb * (vy * wx + wy * tx) - gamma * h.sxy[s] - half, kb * (vy * wy + wy * ty) - gamma * h.syy[s]);
+  add(batch, lane, last - 1, first, kb * ux * wx, kb * ux * wy, kb * uy * wx, kb * uy * wy);
+  add(batch, lane, last, first + 1, kb * wx * qx, kb * wx * qy, kb * wy * qx, kb * wy * qy);
 }
 
 /// Rank-one area term by Sherman-Morrison: (M + k g g^T)^-1 = M^-1 - q k q^T/(1 + k g.q), q = M^-1 g.
@@ -174,33 +195,34 @@ void CellPreconditioner::factor_area(Batch& batch, double gamma) {
   }
 }
 
-template <class Task>
-void CellPreconditioner::for_each_batch(WorkerPool& workers, const Task& task) {
-  const Ranges ranges{batches_.size(), 8};
-  workers.for_each(ranges.count(), [&](int k) {
-    for (std::size_t b = ranges[k].begin; b < ranges[k].end; ++b) task(batches_[b]);
-  });
+void CellPreconditioner::set_up_cells(Batch& batch, kernels::CellRows& rows, double gamma) {
+  gather(batch, rows);
+  kernel_->cell_rows8(rows, gamma, batch.matrix);
+  for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) close_ring(batch, static_cast<int>(lane), gamma);
+  kernel_->cyclic_factor8(batch.matrix);
+  factor_area(batch, gamma);
 }
 
-void CellPreconditioner::factor(Batch& batch, double gamma) {
-  if (batch.lanes == 1) {
-    kernel_->cyclic_factor1(batch.matrix);
-  } else {
-    kernel_->cyclic_factor8(batch.matrix);
-    factor_area(batch, gamma);
+void CellPreconditioner::set_up_ring(Batch& batch, double gamma, std::span<const PointBlock> extra) {
+  make_identity(batch);
+  const int vertices = tissue_->vertex_count();
+  for (const PointBlock& e : extra) {
+    if (e.i < vertices || e.j < vertices) continue;
+    const auto [xx, xy, yx, yy] = e.block;
+    add(batch, 0, e.i - vertices, e.j - vertices, gamma * xx, gamma * xy, gamma * yx, gamma * yy);
   }
+  kernel_->cyclic_factor1(batch.matrix);
 }
 
 void CellPreconditioner::set_up(double gamma, const ContactFactors& contacts, std::span<const PointBlock> extra,
                                 WorkerPool& workers) {
-  for_each_batch(workers, [&](Batch& batch) {
-    clear(batch);
-    for (std::size_t lane = 0; lane < batch.cell.size(); ++lane) add_shell(batch, static_cast<int>(lane), gamma);
+  sum_diagonal(contacts, extra, workers);
+  for_each_batch(workers, [&](Batch& batch, int range) {
+    if (batch.lanes == 1)
+      set_up_ring(batch, gamma, extra);
+    else
+      set_up_cells(batch, rows_[range], gamma);
   });
-  // Tiles at work at once touch no common cell, hence no common lane.
-  contacts.for_each_tile(workers, [&](std::span<const kernels::ContactFactor> factors) { add_contacts(gamma, factors); });
-  add_extra(gamma, extra);
-  for_each_batch(workers, [&](Batch& batch) { factor(batch, gamma); });
 }
 
 void CellPreconditioner::apply_ring(Batch& ring, std::span<const double> r, std::span<double> z) const {
@@ -237,7 +259,7 @@ void CellPreconditioner::apply_cells(Batch& batch, std::span<const double> r, st
 }
 
 void CellPreconditioner::apply(std::span<const double> r, std::span<double> z, WorkerPool& workers) {
-  for_each_batch(workers, [&](Batch& batch) { batch.lanes == 1 ? apply_ring(batch, r, z) : apply_cells(batch, r, z); });
+  for_each_batch(workers, [&](Batch& batch, int) { batch.lanes == 1 ? apply_ring(batch, r, z) : apply_cells(batch, r, z); });
 }
 
 }  // namespace suture

@@ -44,17 +44,21 @@ class CellPreconditioner {
   };
   void make_batches();
   void allocate(Batch& batch);
-  static void clear(Batch& batch);
+  void allocate_scratch();
+  static void make_identity(Batch& batch);
   /// Adds a block at (row, column) of one lane.
   static void add(Batch& batch, int lane, int row, int column, double xx, double xy, double yx, double yy);
-  void add_shell(Batch& batch, int lane, double gamma);
-  void add_contacts(double gamma, std::span<const kernels::ContactFactor> contacts);
-  void add_extra(double gamma, std::span<const PointBlock> extra);
-  void factor(Batch& batch, double gamma);
+  /// Contacts' and extra terms' blocks on the diagonal, per slot.
+  void sum_diagonal(const ContactFactors& contacts, std::span<const PointBlock> extra, WorkerPool& workers);
+  /// Copies what the batch's cells are made of into lane order.
+  void gather(Batch& batch, kernels::CellRows& rows);
+  void close_ring(Batch& batch, int lane, double gamma);
+  void set_up_cells(Batch& batch, kernels::CellRows& rows, double gamma);
+  void set_up_ring(Batch& batch, double gamma, std::span<const PointBlock> extra);
   void factor_area(Batch& batch, double gamma);
   void apply_ring(Batch& ring, std::span<const double> r, std::span<double> z) const;
   void apply_cells(Batch& batch, std::span<const double> r, std::span<double> z) const;
-  /// task(batch), several at once.
+  /// task(batch, range it belongs to), one range beside the other.
   template <class Task>
   void for_each_batch(WorkerPool& workers, const Task& task);
 
@@ -63,8 +67,10 @@ class CellPreconditioner {
   const kernels::Table* kernel_;
   int ring_size_;
   std::vector<Batch> batches_;   ///< cells; the ring, when there is one, is the last
-  std::vector<int> batch_of_, lane_of_;
   std::vector<AlignedBuffer> buffers_;
+  AlignedBuffer scratch_;
+  double* diagonal_ = nullptr;   ///< (xx, xy, yy, unused) per slot
+  std::vector<kernels::CellRows> rows_;  ///< per range of batches: of one batch at a time
 };
 
 }  // namespace suture

@@ -24,6 +24,13 @@ class ContactFactors {
     colours_.for_each_tile(workers, [&](int k) { task(std::span(tiles_[k].factors.data(), tiles_[k].live)); });
   }
 
+  /// visit(factor), one after the other.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (const Tile& tile : tiles_)
+      for (std::size_t k = 0; k < tile.live; ++k) visit(tile.factors[k]);
+  }
+
  private:
   struct Tile {
     std::vector<kernels::ContactFactor> factors;  // the first `live` are in use

@@ -8,6 +8,7 @@
 #include "ode/cell_preconditioner.hpp"
 #include "ode/contact_factors.hpp"
 #include "ode/tissue_gradient.hpp"
+#include "ode/sparse_direct.hpp"
 #include "suture/errors.hpp"
 
 namespace suture {
@@ -15,7 +16,7 @@ namespace suture {
 struct TissueOde::Impl : TissueGradient {
   Impl(const Tissue& tissue_in, int ring, TissueOdeOptions options_in,
        std::vector<std::shared_ptr<const EnergyTerm>> extra_in, std::span<const double> reference)
-      : TissueGradient(tissue_in, ring, std::move(options_in), std::move(extra_in)), preconditioner(tissue, padded, ring, kernel) {
+      : TissueGradient(tissue_in, ring, std::move(options_in), std::move(extra_in)), preconditioner(tissue, padded, ring, kernel), direct(tissue, padded) {
     const int vertices = tissue.vertex_count();
     for (int v = 0; v < vertices; ++v) {
       const CellMaterial& m = tissue.material(tissue.cell_of(v));
@@ -50,6 +51,9 @@ struct TissueOde::Impl : TissueGradient {
   }
 
   CellPreconditioner preconditioner;
+  LinearSolver linear_solver = LinearSolver::structured;
+  SparseDirect direct;
+  bool factored_directly = false;
   std::vector<double> inverse_tau, memory, reference_length;
   std::vector<double> length;
 
@@ -165,12 +169,21 @@ void TissueOde::product(std::span<const double> v, std::span<double> out) {
   m.extra_blocks.add_product(m.gamma, m.layout, v, out);
 }
 
+void TissueOde::choose_linear_solver(LinearSolver solver) { impl_->linear_solver = solver; }
+
 void TissueOde::set_up_preconditioner() {
   Impl& m = *impl_;
-  m.preconditioner.set_up(m.gamma, m.factors, m.extra_blocks.blocks, m.workers);
+  m.factored_directly = m.linear_solver == LinearSolver::sparse_direct &&
+                         m.direct.factor(m.gamma, m.layout.points(), m.factors, m.extra_blocks);
+  if (!m.factored_directly) m.preconditioner.set_up(m.gamma, m.factors, m.extra_blocks.blocks, m.workers);
 }
 
-void TissueOde::precondition(std::span<const double> r, std::span<double> z) { impl_->preconditioner.apply(r, z, impl_->workers); }
+void TissueOde::precondition(std::span<const double> r, std::span<double> z) {
+  if (impl_->factored_directly)
+    impl_->direct.solve(r, z);
+  else
+    impl_->preconditioner.apply(r, z, impl_->workers);
+}
 
 void TissueOde::recover_memory(std::span<const double> q, std::span<double> memory) {
   Impl& m = *impl_;

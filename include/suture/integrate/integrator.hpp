@@ -39,6 +39,7 @@ struct IntegratorOptions {
   double switch_stages = 12.0;         ///< automatic: rates per step of RKC2 from which CVODE takes over
   double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
   int maximum_order = 5;
+  LinearSolver linear_solver = LinearSolver::structured;
   bool keep_history = true;            ///< a multistep method carries its past over an event
 };
 

@@ -104,6 +104,8 @@ std::span<const Choice> choices_of<Adjacency>();
 template <>
 std::span<const Choice> choices_of<Method>();
 template <>
+std::span<const Choice> choices_of<LinearSolver>();
+template <>
 std::span<const Choice> choices_of<Protocol>();
 template <>
 std::span<const Choice> choices_of<Stage>();

@@ -60,6 +60,9 @@ enum class Adjacency {
 /// Time integrators (suture/integrate/integrator.hpp).
 enum class Method { cvode, rkc2, automatic, arkode, adams, euler, verlet, rk4 };
 
+/// What the Newton steps of method cvode are preconditioned with (numerics.md).
+enum class LinearSolver { structured, sparse_direct };
+
 /// What a run does.
 enum class Protocol {
   wound_closure,  ///< pack, anneal, ablate, relax, close (model.md section 6)
@@ -203,6 +206,7 @@ struct IntegratorParameters {
   double tolerance = 1e-3;           ///< on positions, in units of l0(0)
   double rest_length_tolerance = 1e-3; ///< on rest lengths, in units of l0(0)
   int maximum_order = 5;
+  LinearSolver linear_solver = LinearSolver::structured;
   bool keep_history = true;          ///< carry the multistep history over events
   double maximum_step = std::numeric_limits<double>::infinity();
   std::optional<double> time_step;   ///< fixed-step methods; unset: 0.01 l0/sqrt(k_a)

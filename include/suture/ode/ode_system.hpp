@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include "suture/model/parameters.hpp"
+
 namespace suture {
 
 class WorkerPool;
@@ -42,6 +44,9 @@ class GradientFlowSystem : public OdeSystem {
   virtual void linearise() = 0;
   /// out = (I + gamma H) v at the last linearisation.
   virtual void product(std::span<const double> v, std::span<double> out) = 0;
+  /// What set_up_preconditioner factors: an approximation of I + gamma H, which is the default, or all of it. A system
+  /// that has one way only stays with it.
+  virtual void choose_linear_solver(LinearSolver) {}
   /// Factors the preconditioner from the last linearisation.
   virtual void set_up_preconditioner() = 0;
   /// z = P^-1 r, P symmetric positive definite.

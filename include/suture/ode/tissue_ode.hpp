@@ -49,6 +49,7 @@ class TissueOde final : public GradientFlowSystem {
   Evaluation residual(std::span<const double> q, std::span<double> residual) override;
   void linearise() override;
   void product(std::span<const double> v, std::span<double> out) override;
+  void choose_linear_solver(LinearSolver solver) override;
   void set_up_preconditioner() override;
   void precondition(std::span<const double> r, std::span<double> z) override;
   void recover_memory(std::span<const double> q, std::span<double> memory) override;

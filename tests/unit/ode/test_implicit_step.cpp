@@ -1,10 +1,10 @@
 // The matrix and the preconditioner of the implicit step against the assembled Hessian of the terms.
-#include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 
+#include "support/implicit_step.hpp"
 #include "support/integration.hpp"
 #include "support/random_tissue.hpp"
 #include "suture/physics/purse_string_chain.hpp"
@@ -26,43 +26,6 @@ TissueState stretched(std::uint64_t seed, RandomTissueOptions options = {.spacin
   for (double& l0 : state.mutable_view().rest_length) l0 *= 0.6;
   return state;
 }
-
-Eigen::VectorXd wave(int n) {
-  Eigen::VectorXd v(n);
-  for (int k = 0; k < n; ++k) v[k] = std::sin(1.0 + 1.37 * k);
-  return v;
-}
-
-std::span<const double> span(const Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
-std::span<double> span(Eigen::VectorXd& v) { return {v.data(), static_cast<std::size_t>(v.size())}; }
-
-/// Residual and linearisation at the state's own positions.
-void linearise(TissueOde& ode, const TissueState& state, double gamma) {
-  ode.begin_implicit_step(state.time, gamma, state.values);
-  Eigen::VectorXd residual(ode.position_count());
-  REQUIRE(ode.residual(std::span(state.values).first(ode.position_count()), span(residual)) == Evaluation::ok);
-  ode.linearise();
-}
-
-Eigen::VectorXd conjugate_gradients(TissueOde& ode, const Eigen::VectorXd& b, int& iterations) {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), r = b, z = b, p, ap = b;
-  ode.precondition(span(r), span(z));
-  p = z;
-  double rz = r.dot(z);
-  for (iterations = 0; iterations < 200 && r.norm() > 1e-13 * b.norm(); ++iterations) {
-    ode.product(span(p), span(ap));
-    const double step = rz / p.dot(ap);
-    x += step * p;
-    r -= step * ap;
-    ode.precondition(span(r), span(z));
-    const double next = r.dot(z);
-    p = z + next / rz * p;
-    rz = next;
-  }
-  return x;
-}
-
-double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) { return (a - b).norm() / b.norm(); }
 
 }  // namespace
 

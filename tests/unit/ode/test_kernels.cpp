@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "neighbors/contact_list.hpp"
+#include "ode/cell_preconditioner.hpp"
 #include "ode/padded_tissue.hpp"
 #include "support/integration.hpp"
 #include "support/random_tissue.hpp"
@@ -69,6 +70,15 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
                         padded.hessian.oy);
   keep(padded.hessian.ox);
   keep(padded.hessian.oy);
+  CellPreconditioner preconditioner(state.tissue, padded, 0, table);
+  WorkerPool alone(1);
+  ContactFactors contacts;
+  contacts.linearise(list, padded.shell, contact, -100.0, table, alone);
+  preconditioner.set_up(0.003, contacts, {}, alone);
+  std::vector<double> solution(2 * n), rhs(2 * n);
+  for (int k = 0; k < 2 * n; ++k) rhs[k] = std::sin(1.3 * k);
+  preconditioner.apply(rhs, solution, alone);
+  result.insert(result.end(), solution.begin(), solution.end());
   return result;
 }
 
@@ -115,5 +125,29 @@ TEST_CASE("the vector operations equal plain loops", "[unit]") {
     CHECK(largest_difference({z, n}, {expected, n}) < 1e-15 * 4);
     for (std::size_t k = 0; k < n; ++k) expected[k] = -2.0 * x[k] + w[k];
     CHECK(largest_difference({z2, n}, {expected, n}) < 1e-14);
+  }
+}
+
+TEST_CASE("the diagonal blocks of contacts are those of their product", "[unit]") {
+  constexpr int slots = 6;
+  std::vector<kernels::ContactFactor> factors;
+  for (int k = 0; k < 9; ++k) {  // normal curvature only, which is what the diagonal holds
+    const double angle = 0.9 * k;
+    factors.push_back({std::cos(angle), std::sin(angle), 0.1 * k, k - 2.5, 0.0, 0.0, 0.0, k % 3, 3 + k % 2});
+  }
+  for (const kernels::Table* table : runnable_tables()) {
+    alignas(64) double blocks[4 * slots] = {};
+    table->contact_diagonal(factors.data(), factors.size(), blocks);
+    for (int slot = 0; slot < slots; ++slot) {
+      double vx[slots] = {}, vy[slots] = {}, ox[slots] = {}, oy[slots] = {}, px[slots] = {}, py[slots] = {};
+      vx[slot] = 1.0;
+      table->contact_product(factors.data(), factors.size(), vx, vy, ox, oy);
+      vx[slot] = 0.0, vy[slot] = 1.0;
+      table->contact_product(factors.data(), factors.size(), vx, vy, px, py);
+      CAPTURE(table->name, slot);
+      CHECK(blocks[4 * slot] == Approx(ox[slot]).margin(1e-14));
+      CHECK(blocks[4 * slot + 1] == Approx(px[slot]).margin(1e-14));
+      CHECK(blocks[4 * slot + 2] == Approx(py[slot]).margin(1e-14));
+    }
   }
 }
