@@ -106,33 +106,37 @@ int GridWound::largest_overlap(const std::vector<int>& before) {
   return best;
 }
 
-double GridWound::update(const Tissue& tissue, const StateView& state) {
+void GridWound::remember() {
   before_.clear();
+  if (wound_ == 0) return;
   for (std::size_t k = 0; k < label_.size(); ++k)
-    if (wound_ > 0 && label_[k] == wound_) {
+    if (label_[k] == wound_) {
       before_.push_back(static_cast<int>(k) % columns_ + column_low_);
       before_.push_back(static_cast<int>(k) / columns_ + row_low_);
     }
+}
+
+double GridWound::update(const Tissue& tissue, const StateView& state) {
+  remember();
   lay_grid(tissue, state);
   occupy(tissue, state);
   const double point_area = spacing_ * spacing_;
-  const int start = at_seed();
+  int start = at_seed();
   wound_ = 1;
   double area = start >= 0 ? flood(start, wound_) * point_area : 0.0;
   if (!before_.empty() && area < largest_drop * area_) {
     const int other = largest_overlap(before_);
     const double other_area = static_cast<double>(std::count(label_.begin(), label_.end(), other)) * point_area;
-    if (other > 0 && other_area > area) wound_ = other, area = other_area;
+    if (other > 0 && other_area > area) {
+      wound_ = other;
+      area = other_area;
+      start = static_cast<int>(std::find(label_.begin(), label_.end(), other) - label_.begin());
+    }
   }
-  if (area > 0.0) {
-    const auto any = std::find(label_.begin(), label_.end(), wound_) - label_.begin();
-    if (start < 0 || label_[start] != wound_)
-      seed_ = {(static_cast<int>(any) % columns_ + column_low_ + 0.5) * spacing_, (static_cast<int>(any) / columns_ + row_low_ + 0.5) * spacing_};
-    else
-      seed_ = {(start % columns_ + column_low_ + 0.5) * spacing_, (start / columns_ + row_low_ + 0.5) * spacing_};
-  } else {
+  if (area > 0.0)
+    seed_ = {(start % columns_ + column_low_ + 0.5) * spacing_, (start / columns_ + row_low_ + 0.5) * spacing_};
+  else
     wound_ = 0;
-  }
   return area_ = area;
 }
 

@@ -35,6 +35,7 @@ class GridWound {
   }
 
  private:
+  void remember();
   void lay_grid(const Tissue& tissue, const StateView& state);
   void occupy(const Tissue& tissue, const StateView& state);
   void occupy_cell(const Tissue& tissue, const StateView& state, int cell);
