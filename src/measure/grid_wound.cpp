@@ -20,8 +20,8 @@ void GridWound::lay_grid(const Tissue& tissue, const StateView& state) {
   const auto vertices = static_cast<std::size_t>(tissue.vertex_count());
   const auto [x_low, x_high] = std::minmax_element(state.x.begin(), state.x.begin() + vertices);
   const auto [y_low, y_high] = std::minmax_element(state.y.begin(), state.y.begin() + vertices);
-  column_low_ = static_cast<int>(std::floor(*x_low / spacing_));
-  row_low_ = static_cast<int>(std::floor(*y_low / spacing_));
+  column_low_ = cell_of(*x_low);
+  row_low_ = cell_of(*y_low);
   columns_ = static_cast<int>(std::ceil(*x_high / spacing_)) - column_low_ + 1;
   rows_ = static_cast<int>(std::ceil(*y_high / spacing_)) - row_low_ + 1;
   label_.assign(static_cast<std::size_t>(columns_) * rows_, free_point);
@@ -31,7 +31,7 @@ void GridWound::lay_grid(const Tissue& tissue, const StateView& state) {
 void GridWound::occupy_cell(const Tissue& tissue, const StateView& state, int cell) {
   const int first = tissue.first_vertex(cell), end = tissue.end_vertex(cell);
   const auto [low, high] = std::minmax_element(state.y.begin() + first, state.y.begin() + end);
-  for (int row = static_cast<int>(std::ceil(*low / spacing_)); row <= static_cast<int>(std::floor(*high / spacing_)); ++row) {
+  for (int row = static_cast<int>(std::ceil(*low / spacing_)); row <= cell_of(*high); ++row) {
     const double y = row * spacing_;
     crossings_.clear();
     for (int a = end - 1, b = first; b < end; a = b++)
@@ -47,7 +47,7 @@ void GridWound::occupy_cell(const Tissue& tissue, const StateView& state, int ce
 void GridWound::occupy(const Tissue& tissue, const StateView& state) {
   for (int cell = 0; cell < tissue.cell_count(); ++cell) occupy_cell(tissue, state, cell);
   for (int v = 0; v < tissue.vertex_count(); ++v) {
-    const int column = static_cast<int>(std::floor(state.x[v] / spacing_)), row = static_cast<int>(std::floor(state.y[v] / spacing_));
+    const int column = cell_of(state.x[v]), row = cell_of(state.y[v]);
     for (int j = row - 2; j <= row + 3; ++j)
       for (int i = column - 2; i <= column + 3; ++i)
         if (inside(i, j) && std::abs(i * spacing_ - state.x[v]) < radius_ && std::abs(j * spacing_ - state.y[v]) < radius_)
@@ -79,7 +79,7 @@ int GridWound::flood(int start, int label) {
 
 /// The grid point of the seed or a free one near it; -1 when all are occupied.
 int GridWound::at_seed() const {
-  const int column = static_cast<int>(std::floor(seed_.x / spacing_)), row = static_cast<int>(std::floor(seed_.y / spacing_));
+  const int column = cell_of(seed_.x), row = cell_of(seed_.y);
   const auto is_free = [&](int i, int j) { return inside(i, j) && label_[index(i, j)] == free_point; };
   if (is_free(column, row)) return index(column, row);
   for (int offset = 1; offset <= seed_search; ++offset)
@@ -89,17 +89,17 @@ int GridWound::at_seed() const {
   return -1;
 }
 
-/// A point of the component with the most points in common with the wound before; -1 when there is none.
-int GridWound::largest_overlap(const std::vector<int>& before) {
+/// Label of the component with the most points in common with the wound before; -1 when there is none.
+int GridWound::largest_overlap() {
   int best = -1, most = 0, label = 2;
-  for (std::size_t k = 0; k + 1 < before.size(); k += 2) {
-    if (!inside(before[k], before[k + 1])) continue;
-    const int start = index(before[k], before[k + 1]);
+  for (std::size_t k = 0; k + 1 < before_.size(); k += 2) {
+    if (!inside(before_[k], before_[k + 1])) continue;
+    const int start = index(before_[k], before_[k + 1]);
     if (label_[start] != free_point) continue;
     flood(start, label);
     int common = 0;
-    for (std::size_t m = 0; m + 1 < before.size(); m += 2)
-      common += inside(before[m], before[m + 1]) && label_[index(before[m], before[m + 1])] == label;
+    for (std::size_t m = 0; m + 1 < before_.size(); m += 2)
+      common += inside(before_[m], before_[m + 1]) && label_[index(before_[m], before_[m + 1])] == label;
     if (common > most) most = common, best = label;
     ++label;
   }
@@ -125,7 +125,7 @@ double GridWound::update(const Tissue& tissue, const StateView& state) {
   wound_ = 1;
   double area = start >= 0 ? flood(start, wound_) * point_area : 0.0;
   if (!before_.empty() && area < largest_drop * area_) {
-    const int other = largest_overlap(before_);
+    const int other = largest_overlap();
     const double other_area = static_cast<double>(std::count(label_.begin(), label_.end(), other)) * point_area;
     if (other > 0 && other_area > area) {
       wound_ = other;
@@ -142,7 +142,7 @@ double GridWound::update(const Tissue& tissue, const StateView& state) {
 
 bool GridWound::beside(const StateView& state, int vertex) const {
   if (wound_ == 0) return false;
-  const int column = static_cast<int>(std::floor(state.x[vertex] / spacing_)), row = static_cast<int>(std::floor(state.y[vertex] / spacing_));
+  const int column = cell_of(state.x[vertex]), row = cell_of(state.y[vertex]);
   for (int j = row - window; j < row + window; ++j)
     for (int i = column - window; i < column + window; ++i)
       if (inside(i, j) && label_[index(i, j)] == wound_) return true;

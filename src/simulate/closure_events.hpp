@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "suture/integrate/integrator.hpp"
 #include "simulate/published_search.hpp"
+#include "suture/integrate/integrator.hpp"
 #include "suture/measure/wound_neighbourhood.hpp"
 #include "suture/ode/purse_string_events.hpp"
 #include "suture/physics/purse_string_operations.hpp"

@@ -6,6 +6,7 @@
 // 4-connected component of free points that holds the seed point.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "suture/geometry/point.hpp"
@@ -41,7 +42,9 @@ class GridWound {
   void occupy_cell(const Tissue& tissue, const StateView& state, int cell);
   int flood(int start, int label);
   int at_seed() const;
-  int largest_overlap(const std::vector<int>& before);
+  int largest_overlap();
+  /// Column or row of the grid point at or below a coordinate.
+  int cell_of(double coordinate) const { return static_cast<int>(std::floor(coordinate / spacing_)); }
   int index(int column, int row) const { return (row - row_low_) * columns_ + column - column_low_; }
   bool inside(int column, int row) const {
     return column >= column_low_ && column < column_low_ + columns_ && row >= row_low_ && row < row_low_ + rows_;
