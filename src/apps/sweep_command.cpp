@@ -25,7 +25,7 @@ struct Options {
   std::vector<std::string> overrides;
   int jobs = 0, run_index = -1;
   double lease_s = 300.0;
-  bool resume = false, list = false, quiet = false;
+  bool resume = false, list = false, tables = false, quiet = false;
 };
 
 std::string status_of(const SweepFolder& folder, const SweepRun& run) {
@@ -88,6 +88,7 @@ void sweep(const Options& options, CommandResult& result) {
   const bool one = options.run_index >= 0;
   const SweepPlan selected = one ? only(plan, options.run_index) : plan;
   folder.create();
+  if (options.tables) return collect_sweep(folder, plan);
   const SweepEnd end = execute(options, folder, selected);
   if (!one) collect_sweep(folder, plan);
   if (!options.quiet) std::cout << fmt::format("{}; results in {}\n", verdict(end.progress), options.directory);
@@ -113,6 +114,7 @@ void add_sweep_command(CLI::App& program, CommandResult& result) {
   auto* list = command->add_flag("--list", options->list, "print the runs and do nothing");
   command->add_option("--run-index", options->run_index, "execute one run of the list, for batch systems")
       ->check(CLI::NonNegativeNumber)->excludes(list);
+  command->add_flag("--tables", options->tables, "write the tables of what is finished and run nothing")->excludes(list);
   command->add_option("--lease", options->lease_s, "seconds without a sign of life after which a worker on another machine counts as dead")
       ->check(CLI::Range(1.0, 1e6))->capture_default_str();
   command->add_flag("--resume", options->resume, "continue what is in DIR (always the case; accepted for clarity)");

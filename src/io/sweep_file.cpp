@@ -41,7 +41,7 @@ class SweepReader {
     require_known(root_, {"base", "seeds", "set", "grid", "list", "case", "derived", "preparation"}, "");
     SweepFile sweep;
     if (const toml::node* base = root_.get("base")) sweep.base = folder_ / text(*base, "base");
-    if (const toml::node* seeds = root_.get("seeds")) sweep.seeds = read_seeds(*seeds);
+    if (const toml::node* seeds = root_.get("seeds")) sweep.seeds = read_seeds(*seeds, "seeds");
     sweep.set = overrides(table_at(root_, "set"), "set");
     sweep.preparation = overrides(table_at(root_, "preparation"), "preparation");
     for (const Leaf& leaf : leaves(table_at(root_, "grid"))) sweep.axes.push_back(axis({leaf}, "grid"));
@@ -142,13 +142,14 @@ class SweepReader {
   }
 
   SweepCase read_case(const toml::table& table) const {
-    require_known(table, {"name", "base", "set"}, "case.");
+    require_known(table, {"name", "base", "set", "seeds"}, "case.");
     const toml::node* name = table.get("name");
     if (name == nullptr) throw InputError(fmt::format("{}: key 'case.name': found no value, allowed a name", at(table.source())));
-    SweepCase result{text(*name, "case.name"), {}, overrides(table_at(table, "set"), "case.set"), at(table.source())};
+    SweepCase result{text(*name, "case.name"), {}, overrides(table_at(table, "set"), "case.set"), at(table.source()), {}};
     if (result.name.empty() || result.name.find_first_of(",\"\n") != std::string::npos)
       refuse(*name, "case.name", "a name without comma, quote or line break");
     if (const toml::node* base = table.get("base")) result.base = folder_ / text(*base, "case.base");
+    if (const toml::node* seeds = table.get("seeds")) result.seeds = read_seeds(*seeds, "case.seeds");
     return result;
   }
 
@@ -170,14 +171,14 @@ class SweepReader {
     return derived;
   }
 
-  std::vector<std::uint64_t> read_seeds(const toml::node& node) const {
-    if (node.is_string()) return parse_seeds(**node.as_string(), fmt::format("{}: key 'seeds'", at(node.source())));
+  std::vector<std::uint64_t> read_seeds(const toml::node& node, std::string_view key) const {
+    if (node.is_string()) return parse_seeds(**node.as_string(), fmt::format("{}: key '{}'", at(node.source()), key));
     constexpr std::string_view allowed = "an array of whole numbers, or a text such as \"1-25\"";
     const toml::array* array = node.as_array();
-    if (array == nullptr || array->empty()) refuse(node, "seeds", allowed);
+    if (array == nullptr || array->empty()) refuse(node, key, allowed);
     std::set<std::uint64_t> seeds;
     for (const toml::node& item : *array) {
-      if (!item.is_integer() || **item.as_integer() < 0) refuse(item, "seeds", allowed);
+      if (!item.is_integer() || **item.as_integer() < 0) refuse(item, key, allowed);
       seeds.insert(static_cast<std::uint64_t>(**item.as_integer()));
     }
     return {seeds.begin(), seeds.end()};

@@ -45,7 +45,7 @@ class Planner {
  public:
   Planner(const SweepFile& file, const PlanOptions& options) : file_(file) {
     for (const std::string& text : options.overrides) command_line_.push_back({text, fmt::format("command line: --set {}", text)});
-    seeds_ = options.seeds ? *options.seeds : file.seeds;
+    from_command_line_ = options.seeds;
     check_keys();
   }
 
@@ -125,9 +125,14 @@ class Planner {
     SweepNode node;
     for (const std::string& column : plan_.columns)
       node.values.push_back(column == "case" ? row->name : without_quotes(config_value(config, column)));
-    const std::vector<std::uint64_t> seeds = seeds_.empty() ? std::vector{config.tissue.seed} : seeds_;
-    for (const std::uint64_t seed : seeds) add_run(config, preparation, seed);
+    for (const std::uint64_t seed : seeds_of(row, config)) add_run(config, preparation, seed);
     plan_.nodes.push_back(std::move(node));
+  }
+
+  std::vector<std::uint64_t> seeds_of(const SweepCase* row, const Config& config) const {
+    if (from_command_line_) return *from_command_line_;
+    if (row != nullptr && !row->seeds.empty()) return row->seeds;
+    return file_.seeds.empty() ? std::vector{config.tissue.seed} : file_.seeds;
   }
 
   void add_run(const Config& config, const std::optional<Config>& preparation, std::uint64_t seed) {
@@ -148,7 +153,7 @@ class Planner {
 
   const SweepFile& file_;
   std::vector<ConfigOverride> command_line_;
-  std::vector<std::uint64_t> seeds_;
+  std::optional<std::vector<std::uint64_t>> from_command_line_;  // seeds
   std::map<std::string, std::string> swept_;  // key, where
   std::map<std::string, int> index_;
   SweepPlan plan_;

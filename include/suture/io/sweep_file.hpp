@@ -25,6 +25,7 @@ struct SweepCase {
   std::filesystem::path base;  ///< empty: that of the sweep
   std::vector<ConfigOverride> set;
   std::string origin;
+  std::vector<std::uint64_t> seeds;  ///< increasing; empty: those of the sweep
 };
 
 /// A key whose value is `factor` times that of another key, in model units.

@@ -144,6 +144,13 @@ TEST_CASE("single runs of the list add up to the sweep", "[cli][sweep]") {
   CHECK_THAT(run_suture(SUTURE_PROGRAM, {"sweep", "sweep.toml", "--out", "out", "--list"}, directory.path()).output,
              Contains("9.6,2,reached_t_end"));
   CHECK(sweep(directory, "out", {"--run-index", "8"}).exit_code == 2);
+  CHECK_FALSE(fs::exists(directory.path() / "out/nodes.csv"));
+  REQUIRE(sweep(directory, "out", {"--tables"}).exit_code == 0);
+  CHECK(finished_runs(directory, "out") == 1);
+  const Rows nodes = read_csv(directory.path() / "out/nodes.csv");
+  REQUIRE(nodes.size() == 4);
+  CHECK(nodes[1].at("runs") == "1");
+  CHECK(nodes[0].at("runs") == "0");
 }
 
 TEST_CASE("a run that starts from a shared preparation is the run from the beginning, bit for bit", "[cli][sweep]") {
@@ -216,7 +223,8 @@ TEST_CASE("every sweep of this repository can be planned", "[cli][sweep]") {
                                         {"figures/fig3/sweep.toml", 1575},
                                         {"figures/fig3/sweep_published_code.toml", 189},
                                         {"figures/fig4/sweep.toml", 125},
-                                        {"figures/fig4/sweep_published_code.toml", 25}};
+                                        {"figures/fig3/sensitivity.toml", 180},
+                                        {"figures/fig4/sweep_published_code.toml", 45}};
   for (const auto& [file, count] : runs) {
     INFO(file);
     const Outcome list = run_suture(SUTURE_PROGRAM, {"sweep", std::string(SUTURE_SOURCE_DIR) + "/examples/" + file, "--list"}, directory.path());

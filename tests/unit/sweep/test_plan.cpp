@@ -62,6 +62,24 @@ TEST_CASE("a list varies its keys together, a case brings its own base and setti
   CHECK(plan.runs[2].config.plasticity.memory == 0.5);
 }
 
+TEST_CASE("a case may have seeds of its own; the command line has the last word", "[sweep]") {
+  const std::string text = R"(
+    seeds = "1-2"
+    [[case]]
+    name = "quick"
+    seeds = "1-4"
+    [[case]]
+    name = "slow"
+    set = { plasticity.memory = 0.5 }
+  )";
+  const SweepPlan plan = plan_of(text);
+  REQUIRE(plan.runs.size() == 6);
+  CHECK(plan.runs[3].config.tissue.seed == 4);
+  CHECK(plan.runs[3].node == 0);
+  CHECK(plan.runs[5].config.tissue.seed == 2);
+  CHECK(plan_of(text, {{}, std::vector<std::uint64_t>{9}}).runs.size() == 2);
+}
+
 TEST_CASE("derived keys follow the swept ones", "[sweep]") {
   const SweepPlan plan = plan_of(R"(
     [grid]
