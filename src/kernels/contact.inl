@@ -12,7 +12,7 @@ SUTURE_INLINE Double8 force_over_distance(const ContactScalars& c, Double8 d2) {
 }
 
 struct WindowState {
-  Double8 dx, dy, ex, ey, t, inverse_length2, segment_d2, point_d2, sign;
+  Double8 dx, dy, ex, ey, t, inverse_length, inverse_length2, segment_d2, point_d2, sign;
   Mask8 segment, point;  ///< live lanes
 };
 
@@ -23,7 +23,8 @@ SUTURE_INLINE WindowState classify(const Shell& s, const ContactScalars& c, cons
   v.dy = broadcast_halves(s.y[a.p], s.y[b.p]) - load_halves(s.y + a.q, s.y + b.q);
   v.ex = load_halves(s.ex + a.q, s.ex + b.q);
   v.ey = load_halves(s.ey + a.q, s.ey + b.q);
-  v.inverse_length2 = load_halves(s.inverse_length2 + a.q, s.inverse_length2 + b.q);
+  v.inverse_length = load_halves(s.inverse_length + a.q, s.inverse_length + b.q);
+  v.inverse_length2 = v.inverse_length * v.inverse_length;
   v.t = (v.dx * v.ex + v.dy * v.ey) * v.inverse_length2;
   const Mask8 after_start = less(0.0, v.t) & listed;
   const Mask8 after_end = ~less(v.t, 1.0) & listed;
@@ -58,14 +59,13 @@ SUTURE_INLINE void add_windows(const Shell& s, const ContactScalars& c, const Wi
 }
 
 /// Partner of an odd last window: the same place without segments.
-inline Window without_segments(const Window& w) { return {w.p, w.q, 0}; }
+inline Window without_segments(const Window& w) { return {w.p, w.q, 0, 0}; }
 
 void contact_gradient(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                       const SelfPair* pairs, std::size_t pair_count) {
-  const std::size_t share = window_count / 8;
-  for (std::size_t k = 0; k < share; ++k)
-    for (std::size_t j = 0; j < 4; ++j) add_windows(s, c, windows[k + j * share], windows[k + (j + 4) * share]);
-  for (std::size_t k = 8 * share; k < window_count; ++k) add_windows(s, c, windows[k], without_segments(windows[k]));
+  const std::size_t even = window_count & ~std::size_t{1};
+  for (std::size_t k = 0; k < even; k += 2) add_windows(s, c, windows[k], windows[k + 1]);
+  if (even < window_count) add_windows(s, c, windows[even], without_segments(windows[even]));
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
@@ -169,15 +169,18 @@ void contact_diagonal(const ContactFactor* factors, std::size_t count, double* b
   }
 }
 
-void near_segments(const Shell& s, int cell, double px, double py, double reach2, unsigned long long* words) {
+void near_segments(const Shell& s, int cell, double px, double py, double reach2, unsigned long long* words, double* distance2) {
   const int b = s.base[cell] + 1, n = s.count[cell];
   for (int k = 0; k < n; k += lanes) {
     const Double8 dx = px - load(s.x + b + k), dy = py - load(s.y + b + k);
     const Double8 ex = load(s.ex + b + k), ey = load(s.ey + b + k);
-    Double8 t = (dx * ex + dy * ey) * load(s.inverse_length2 + b + k);
+    const Double8 inverse = load(s.inverse_length + b + k);
+    Double8 t = (dx * ex + dy * ey) * (inverse * inverse);
     t = select(less(0.0, t), select(less(t, 1.0), t, broadcast(1.0)), Double8{});
     const Double8 rx = dx - t * ex, ry = dy - t * ey;
-    unsigned long long mask = bits(less(rx * rx + ry * ry, reach2));
+    const Double8 d2 = rx * rx + ry * ry;
+    store(distance2 + k, d2);
+    unsigned long long mask = bits(less(d2, reach2));
     if (n - k < lanes) mask &= (1ull << (n - k)) - 1;
     if (k % 64 == 0) words[k / 64] = 0;
     words[k / 64] |= mask << (k % 64);

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace suture::kernels {
 
@@ -25,16 +26,27 @@ struct Shell {
   bool relative_law = false;
   const double *rest_area = nullptr, *area_stiffness = nullptr, *bending_stiffness = nullptr;  ///< per cell
   double *x = nullptr, *y = nullptr;
-  double *ex = nullptr, *ey = nullptr, *length = nullptr, *inverse_length = nullptr, *inverse_length2 = nullptr;
+  double *ex = nullptr, *ey = nullptr, *length = nullptr, *inverse_length = nullptr;
   double *theta = nullptr;
   /// Rest length as a function of the length, l0 = rest_a + rest_b l: rest_b = 0 in a plain rate evaluation, the
   /// eliminated implicit step otherwise (numerics.md, "Eliminating the rest lengths").
   double *rest_a = nullptr, *rest_b = nullptr;
   const double* stiffness = nullptr;  ///< quadratic: k_l/l0(0)^2; relative: k_l
-  double *gx = nullptr, *gy = nullptr;  ///< dU/dr
-  double* work_x = nullptr;             ///< dU/de scratch
-  double* work_y = nullptr;
+  double *gx = nullptr, *gy = nullptr;  ///< dU/dr; room to work in at other times
   double* area = nullptr;               ///< per cell
+};
+
+/// What a gradient is evaluated at, without padding, from the first vertex of the shell's first cell on.
+struct ShellInput {
+  const double *x = nullptr, *y = nullptr;
+  const double* rest_length = nullptr;  ///< null: rest_a + rest_b l as they are in the shell
+};
+
+/// Rates of the rest lengths, without padding, from the first vertex of the shell's first cell on; material per cell.
+struct RestLengthFlow {
+  const double *inverse_tau = nullptr, *memory = nullptr;
+  const double *rest_length = nullptr, *reference = nullptr;
+  double* rate = nullptr;
 };
 
 /// Second derivatives of the shell at one point (see shell_linearise).
@@ -57,9 +69,11 @@ struct ContactScalars {
 /// Segments of one window at most; with their last end point they fill half a vector.
 constexpr int window_segments = 3;
 
-/// Vertex p against `segments` <= window_segments consecutive segments that start at slot q of another cell.
+/// Vertex p against `segments` <= window_segments consecutive segments that start at slot q of another cell. The kernels
+/// do not look at `band` (contact_list.hpp).
 struct Window {
-  int p, q, segments;
+  int p, q;
+  std::int16_t segments, band;
 };
 
 struct SelfPair {
@@ -93,11 +107,15 @@ struct CellRows {
 
 struct Table {
   const char* name;
-  /// Lengths, angles and dU/dr of the shell; overwrites gx, gy including the halo. x, y must be padded.
-  void (*shell_gradient)(const Shell&);
+  /// Fills the slots; lengths, angles and dU/dr of the shell; overwrites gx, gy including the halo. False if an area, a
+  /// length or a rest length is not positive.
+  bool (*shell_gradient)(const Shell&, const ShellInput&);
   void (*shell_linearise)(const Shell&, const ShellHessian&);
-  /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded.
+  /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded. Overwrites gx, gy.
   void (*shell_product)(const Shell&, const ShellHessian&);
+  /// What contacts added to repeated slots goes to the vertices, then all without padding to `values`.
+  void (*fold_cells)(const Shell&, double* padded, double* values);
+  void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
   void (*contact_gradient)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*, std::size_t);
   /// Appends live terms; returns their number. `factors` must have room for 8 per window and 1 per pair.
   std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*,
@@ -107,8 +125,9 @@ struct Table {
   void (*contact_diagonal)(const ContactFactor*, std::size_t, double* blocks);
   /// Overwrites the batch by I + gamma H of one cell per lane, without the corners that close the ring.
   void (*cell_rows8)(const CellRows&, double gamma, const CyclicBatch&);
-  /// Bit mask of the segments base+1 .. base+n of one cell within `reach` of (px, py), 64 segments per word.
-  void (*near_segments)(const Shell&, int cell, double px, double py, double reach2, unsigned long long* words);
+  /// Bit mask of the segments base+1 .. base+n of one cell within `reach` of (px, py), 64 segments per word, and the squared
+  /// distance of each (room for n, rounded up to eight).
+  void (*near_segments)(const Shell&, int cell, double px, double py, double reach2, unsigned long long* words, double* distance2);
   void (*cyclic_factor1)(const CyclicBatch&);
   void (*cyclic_factor8)(const CyclicBatch&);
   /// rhs: (row, x or y, lane); overwritten by the solution.
@@ -120,6 +139,10 @@ struct Table {
   void (*linear_sum)(std::size_t n, double a, const double* x, double b, const double* y, double* z);
   void (*linear_combination)(std::size_t n, int count, const double* c, const double* const* x, double* z);
   void (*scale_add_multi)(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z);
+  // Any n.
+  double (*largest_move2)(std::size_t n, const double* x, const double* y, const double* x0, const double* y0);  ///< squared
+  bool (*finite)(std::size_t n, const double* x);  ///< all below 1e300
+  bool (*negate)(std::size_t n, double* x);        ///< in place; returns what finite would
 };
 
 extern const Table baseline;

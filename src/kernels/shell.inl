@@ -9,9 +9,8 @@ struct Tension {
   Double8 force, stiffness;
 };
 
-/// dU/dl and its derivative along l0 = a + b l.
-inline Tension tension(bool relative, Double8 k, Double8 a, Double8 b, Double8 l) {
-  const Double8 rest = a + b * l;
+/// dU/dl at rest length `rest`, and its derivative along a line of rest lengths of slope b.
+inline Tension tension(bool relative, Double8 k, Double8 rest, Double8 b, Double8 l) {
   if (!relative) return {k * (l - rest), k * (1.0 - b)};
   const Double8 inverse = 1.0 / rest;
   const Double8 ratio = l * inverse;
@@ -40,7 +39,22 @@ inline Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, 
   return angle;
 }
 
-inline void shell_geometry(const Shell& s, int cell) {
+/// Slots 1 .. n of a cell and those that repeat them.
+inline void fill_slots(const double* vertices, double* a, int n) {
+  static_assert(suture::kernels::halo == lanes + 2);
+  if (n <= lanes) {
+    for (int k = 0; k < n; ++k) a[1 + k] = vertices[k];
+    for (int k = 1; k < suture::kernels::halo; ++k) a[n + k] = a[k];
+  } else {
+    for (int k = 0; k + lanes <= n; k += lanes) store(a + 1 + k, load(vertices + k));
+    store(a + 1 + n - lanes, load(vertices + n - lanes));
+    store(a + n + 1, load(vertices));
+    a[n + lanes + 1] = vertices[lanes];
+  }
+  a[0] = vertices[n - 1];
+}
+
+inline void segments_and_area(const Shell& s, int cell) {
   const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
   const double x0 = s.x[b + 1], y0 = s.y[b + 1];
   Double8 twice_area{};
@@ -54,46 +68,78 @@ inline void shell_geometry(const Shell& s, int cell) {
     store(s.ey + j, ey);
     store(s.length + j, l);
     store(s.inverse_length + j, inverse);
-    store(s.inverse_length2 + j, inverse * inverse);
     const Mask8 own = first_lanes(n + 1 - (j - b)) & ~first_lanes(1 - (j - b));  // slots 1 .. n
     twice_area += select(own, (x - x0) * ey - (y - y0) * ex, Double8{});
   }
   s.area[cell] = 0.5 * sum(twice_area);
   s.ex[b - 1] = s.ex[b], s.ey[b - 1] = s.ey[b], s.length[b - 1] = s.length[b];  // the unused angle at slot 0 is benign
-  for (int j = b; j < b + m; j += lanes)
-    store(s.theta + j, turning_angle(load(s.ex + j - 1), load(s.ey + j - 1), load(s.length + j - 1), load(s.ex + j),
-                                     load(s.ey + j), load(s.length + j)));
-  for (double* a : {s.ex, s.ey, s.inverse_length2})  // the contact windows read these beyond the last vertex
+  for (double* a : {s.ex, s.ey, s.inverse_length})  // the contact windows read these beyond the last vertex
     for (int k = 1; k < suture::kernels::halo - 1; ++k) a[b + n + k] = a[b + k];
 }
 
-void shell_gradient(const Shell& s) {
-  for (int cell = 0; cell < s.cells; ++cell) {
-    shell_geometry(s, cell);
-    const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
-    const Double8 kb = broadcast(s.bending_stiffness[cell]);
-    for (int j = b; j < b + m; j += lanes) {
-      const Double8 ex = load(s.ex + j), ey = load(s.ey + j), inverse = load(s.inverse_length + j);
-      const Tension t = tension(s.relative_law, load(s.stiffness + j), load(s.rest_a + j), load(s.rest_b + j), load(s.length + j));
-      const Double8 along = t.force * inverse;
-      const Double8 across = kb * (load(s.theta + j) - load(s.theta + j + 1)) * inverse * inverse;
-      store(s.work_x + j, along * ex - across * ey);
-      store(s.work_y + j, along * ey + across * ex);
-    }
-    s.work_x[b] = s.work_x[b + n];
-    s.work_y[b] = s.work_y[b + n];
-    const double strain = s.area[cell] / s.rest_area[cell] - 1.0;
-    const Double8 half_pressure = broadcast(0.5 * s.area_stiffness[cell] * strain / s.rest_area[cell]);
-    for (int j = b; j < b + m; j += lanes) {
-      const Double8 ex = load(s.ex + j) + load(s.ex + j - 1), ey = load(s.ey + j) + load(s.ey + j - 1);
-      store(s.gx + j, load(s.work_x + j - 1) - load(s.work_x + j) + half_pressure * ey);
-      store(s.gy + j, load(s.work_y + j - 1) - load(s.work_y + j) - half_pressure * ex);
-    }
-    for (double* g : {s.gx + b, s.gy + b}) {  // contacts accumulate into the halo next
-      g[0] = 0.0;
-      for (int k = 1; k < suture::kernels::halo; ++k) g[n + k] = 0.0;
-    }
+inline void turning_angles(const Shell& s, int cell) {
+  const int b = s.base[cell], m = padded_lanes(s.count[cell]);
+  for (int j = b; j < b + m; j += lanes)
+    store(s.theta + j, turning_angle(load(s.ex + j - 1), load(s.ey + j - 1), load(s.length + j - 1), load(s.ex + j),
+                                     load(s.ey + j), load(s.length + j)));
+}
+
+/// dU/de into gx, gy; false if a length or rest length is not positive.
+inline bool segment_forces(const Shell& s, int cell, bool rest_lengths_held) {
+  const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+  const Double8 kb = broadcast(s.bending_stiffness[cell]);
+  Mask8 positive = first_lanes(lanes);  // slots beyond the vertices repeat them: no need to leave them out
+  for (int j = b; j < b + m; j += lanes) {
+    const Double8 ex = load(s.ex + j), ey = load(s.ey + j), inverse = load(s.inverse_length + j), l = load(s.length + j);
+    const Double8 rest = rest_lengths_held ? load(s.rest_a + j) : load(s.rest_a + j) + load(s.rest_b + j) * l;
+    positive = positive & less(0.0, l) & less(0.0, rest);
+    const Double8 along = tension(s.relative_law, load(s.stiffness + j), rest, Double8{}, l).force * inverse;
+    const Double8 across = kb * (load(s.theta + j) - load(s.theta + j + 1)) * inverse * inverse;
+    store(s.gx + j, along * ex - across * ey);
+    store(s.gy + j, along * ey + across * ex);
   }
+  s.gx[b] = s.gx[b + n];
+  s.gy[b] = s.gy[b + n];
+  return bits(~positive) == 0;
+}
+
+/// dU/dr from dU/de, in place: backwards, because a slot needs the one before it.
+inline void gather_forces(const Shell& s, int cell) {
+  const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+  const double strain = s.area[cell] / s.rest_area[cell] - 1.0;
+  const Double8 half_pressure = broadcast(0.5 * s.area_stiffness[cell] * strain / s.rest_area[cell]);
+  for (int j = b + m - lanes; j >= b; j -= lanes) {
+    const Double8 ex = load(s.ex + j) + load(s.ex + j - 1), ey = load(s.ey + j) + load(s.ey + j - 1);
+    store(s.gx + j, load(s.gx + j - 1) - load(s.gx + j) + half_pressure * ey);
+    store(s.gy + j, load(s.gy + j - 1) - load(s.gy + j) - half_pressure * ex);
+  }
+  for (double* g : {s.gx + b, s.gy + b}) {  // contacts accumulate into the halo next
+    g[0] = 0.0;
+    for (int k = 1; k < suture::kernels::halo; ++k) g[n + k] = 0.0;
+  }
+}
+
+bool shell_gradient(const Shell& s, const ShellInput& in) {
+  // Every pass reads its predecessor's results at shifted addresses, which a store just made would hold up. A few cells at
+  // a time, pass after pass, leave time for it, and stay in the first-level cache.
+  constexpr int together = 4;
+  bool healthy = true;
+  std::size_t vertex = 0;
+  for (int first = 0; first < s.cells; first += together) {
+    const int end = std::min(first + together, s.cells);
+    for (int cell = first; cell < end; ++cell) {
+      const int b = s.base[cell], n = s.count[cell];
+      fill_slots(in.x + vertex, s.x + b, n);
+      fill_slots(in.y + vertex, s.y + b, n);
+      if (in.rest_length != nullptr) fill_slots(in.rest_length + vertex, s.rest_a + b, n);
+      vertex += n;
+    }
+    for (int cell = first; cell < end; ++cell) segments_and_area(s, cell);
+    for (int cell = first; cell < end; ++cell) turning_angles(s, cell);
+    for (int cell = first; cell < end; ++cell) healthy &= segment_forces(s, cell, in.rest_length != nullptr) & (s.area[cell] > 0.0);
+    for (int cell = first; cell < end; ++cell) gather_forces(s, cell);
+  }
+  return healthy;
 }
 
 /// d2U/de_i2 = K m m^T + (T/l) n n^T - (M/l^2)(m n^T + n m^T) + (bending: k_b along d(theta)), with m = e/l and
@@ -105,7 +151,8 @@ void shell_linearise(const Shell& s, const ShellHessian& h) {
     for (int j = b; j < b + m; j += lanes) {
       const Double8 inverse = load(s.inverse_length + j);
       const Double8 mx = load(s.ex + j) * inverse, my = load(s.ey + j) * inverse;
-      const Tension t = tension(s.relative_law, load(s.stiffness + j), load(s.rest_a + j), load(s.rest_b + j), load(s.length + j));
+      const Double8 l = load(s.length + j), slope = load(s.rest_b + j);
+      const Tension t = tension(s.relative_law, load(s.stiffness + j), load(s.rest_a + j) + slope * l, slope, l);
       const Double8 geometric = maximum(t.force, Double8{}) * inverse;
       const Double8 moment = kb * (load(s.theta + j) - load(s.theta + j + 1)) * inverse * inverse;
       store(h.sxx + j, t.stiffness * mx * mx + geometric * my * my + 2.0 * moment * mx * my);
@@ -122,6 +169,7 @@ void shell_linearise(const Shell& s, const ShellHessian& h) {
   }
 }
 
+/// Works in gx, gy.
 void shell_product(const Shell& s, const ShellHessian& h) {
   for (int cell = 0; cell < s.cells; ++cell) {
     const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
@@ -136,21 +184,59 @@ void shell_product(const Shell& s, const ShellHessian& h) {
     for (int j = b; j < b + m; j += lanes) {
       const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
       const Double8 bend = kb * (2.0 * load(h.ox + j) - load(h.ox + j - 1) - load(h.ox + j + 1));
-      store(s.work_x + j, load(h.sxx + j) * wx + load(h.sxy + j) * wy + bend * load(h.nx + j));
-      store(s.work_y + j, load(h.sxy + j) * wx + load(h.syy + j) * wy + bend * load(h.ny + j));
+      store(s.gx + j, load(h.sxx + j) * wx + load(h.sxy + j) * wy + bend * load(h.nx + j));
+      store(s.gy + j, load(h.sxy + j) * wx + load(h.syy + j) * wy + bend * load(h.ny + j));
     }
-    s.work_x[b] = s.work_x[b + n];
-    s.work_y[b] = s.work_y[b + n];
+    s.gx[b] = s.gx[b + n];
+    s.gy[b] = s.gy[b + n];
     const Double8 rank_one = broadcast(h.area_curvature[cell] * sum(area_change));
     const Double8 half_pressure = broadcast(0.5 * h.pressure[cell]);
     for (int j = b; j < b + m; j += lanes) {
       const Double8 turn_x = load(h.vx + j + 1) - load(h.vx + j - 1), turn_y = load(h.vy + j + 1) - load(h.vy + j - 1);
-      store(h.ox + j, load(s.work_x + j - 1) - load(s.work_x + j) + rank_one * load(h.ax + j) + half_pressure * turn_y);
-      store(h.oy + j, load(s.work_y + j - 1) - load(s.work_y + j) + rank_one * load(h.ay + j) - half_pressure * turn_x);
+      store(h.ox + j, load(s.gx + j - 1) - load(s.gx + j) + rank_one * load(h.ax + j) + half_pressure * turn_y);
+      store(h.oy + j, load(s.gy + j - 1) - load(s.gy + j) + rank_one * load(h.ay + j) - half_pressure * turn_x);
     }
     for (double* o : {h.ox + b, h.oy + b}) {
       o[0] = 0.0;
       for (int k = 1; k < suture::kernels::halo; ++k) o[n + k] = 0.0;
     }
+  }
+}
+
+/// values <- slots 1 .. n with what was added to the slots that repeat them.
+void fold_cells(const Shell& s, double* padded, double* values) {
+  for (int cell = 0; cell < s.cells; ++cell) {
+    double* a = padded + s.base[cell];
+    const int n = s.count[cell];
+    if (n <= lanes) {
+      for (int k = suture::kernels::halo - 1; k >= 1; --k) a[k] += a[n + k];
+      a[n] += a[0];
+      for (int k = 0; k < n; ++k) values[k] = a[1 + k];
+    } else {
+      const Double8 folded = load(a + 1) + load(a + n + 1);
+      a[lanes + 1] += a[n + lanes + 1];
+      a[n] += a[0];
+      store(values, folded);
+      for (int k = lanes; k + lanes <= n; k += lanes) store(values + k, load(a + 1 + k));
+      for (int k = n - n % lanes; k < n; ++k) values[k] = a[1 + k];
+    }
+    values += n;
+  }
+}
+
+void rest_length_rate(const Shell& s, const RestLengthFlow& f) {
+  std::size_t vertex = 0;
+  for (int cell = 0; cell < s.cells; ++cell) {
+    const int n = s.count[cell];
+    const double *length = s.length + s.base[cell] + 1, *rest = f.rest_length + vertex, *reference = f.reference + vertex;
+    double* rate = f.rate + vertex;
+    const double inverse_tau = f.inverse_tau[cell], memory = f.memory[cell];
+    for (int k = 0; k + lanes <= n; k += lanes) {
+      const Double8 l = load(length + k);
+      store(rate + k, -inverse_tau * ((load(rest + k) - l) + memory * (l - load(reference + k))));
+    }
+    for (int k = n - n % lanes; k < n; ++k)
+      rate[k] = -inverse_tau * ((rest[k] - length[k]) + memory * (length[k] - reference[k]));
+    vertex += n;
   }
 }

@@ -36,3 +36,50 @@ void scale_add_multi(std::size_t n, int count, const double* a, const double* x,
     for (int j = 0; j < count; ++j) store(z[j] + k, a[j] * v + load(y[j] + k));
   }
 }
+
+// The rest takes vectors of any length.
+
+/// The largest (x - x0)^2 + (y - y0)^2; what is not a number does not count.
+double largest_move2(std::size_t n, const double* x, const double* y, const double* x0, const double* y0) {
+  Double8 largest{};
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
+    const Double8 dx = load(x + k) - load(x0 + k), dy = load(y + k) - load(y0 + k);
+    largest = maximum(largest, dx * dx + dy * dy);
+  }
+  double result = 0.0;
+  for (int i = 0; i < lanes; ++i) result = std::fmax(result, largest[i]);
+  for (; k < n; ++k) {
+    const double dx = x[k] - x0[k], dy = y[k] - y0[k];
+    result = std::fmax(result, dx * dx + dy * dy);
+  }
+  return result;
+}
+
+constexpr double huge = 1e300;
+
+bool finite(std::size_t n, const double* x) {
+  Mask8 fine = first_lanes(lanes);
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) fine = fine & less(load(x + k), huge) & less(-huge, load(x + k));
+  bool tail = true;
+  for (; k < n; ++k) tail &= std::fabs(x[k]) < huge;
+  return bits(~fine) == 0 && tail;
+}
+
+/// x = -x; returns what finite would.
+bool negate(std::size_t n, double* x) {
+  Mask8 fine = first_lanes(lanes);
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
+    const Double8 a = load(x + k);
+    fine = fine & less(a, huge) & less(-huge, a);
+    store(x + k, -a);
+  }
+  bool tail = true;
+  for (; k < n; ++k) {
+    tail &= std::fabs(x[k]) < huge;
+    x[k] = -x[k];
+  }
+  return bits(~fine) == 0 && tail;
+}

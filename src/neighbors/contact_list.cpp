@@ -19,6 +19,35 @@ void ContactList::build(const kernels::Shell& shell, const kernels::Table& kerne
   fill_buckets();
   make_tiles();
   workers.for_each(colours_.tiles(), [&](int k) { fill_tile(tiles_[k], shell, kernel); });
+  active_bands_ = 0;
+  age(0.0, workers);
+}
+
+void ContactList::age(double moved, WorkerPool& workers) {
+  const int wanted = skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
+  if (wanted <= active_bands_) return;
+  active_bands_ = wanted;
+  workers.for_each(colours_.tiles(), [&](int k) { activate(tiles_[k]); });
+}
+
+/// The kernel works on active windows two by two. They come from eight places of the list in turn: neighbouring vertices push
+/// on the same segments, and a load that overlaps a store just made has to wait for it.
+void ContactList::activate(Tile& tile) const {
+  const std::vector<kernels::Window>& all = tile.windows;
+  tile.active.clear();
+  const auto take = [&](std::size_t k) {
+    if (all[k].band < active_bands_) tile.active.push_back(all[k]);
+  };
+  const std::size_t share = all.size() / 8;
+  for (std::size_t k = 0; k < share; ++k)
+    for (const std::size_t place : {0, 4, 1, 5, 2, 6, 3, 7}) take(k + place * share);
+  for (std::size_t k = 8 * share; k < all.size(); ++k) take(k);
+}
+
+int ContactList::band_of(double distance2) const {
+  int band = 0;
+  for (double edge = reach_; band < bands - 1 && distance2 >= edge * edge; edge += skin_ / (bands - 1)) ++band;
+  return band;
 }
 
 void ContactList::find_boxes(const kernels::Shell& shell, WorkerPool& workers) {
@@ -109,14 +138,15 @@ void ContactList::add_windows(Tile& tile, const kernels::Shell& shell, const ker
     const Box& b = boxes_[other];
     if (px < b.x0 - margin || px > b.x1 + margin || py < b.y0 - margin || py > b.y1 + margin) continue;
     tile.words.resize(std::max<std::size_t>(tile.words.size(), (shell.count[other] + 63) / 64));
-    kernel.near_segments(shell, other, px, py, margin * margin, tile.words.data());
+    tile.distance2.resize(std::max<std::size_t>(tile.distance2.size(), (shell.count[other] + 7) / 8 * 8));
+    kernel.near_segments(shell, other, px, py, margin * margin, tile.words.data(), tile.distance2.data());
     cut_windows(tile, slot, shell.base[other] + 1, shell.count[other]);
   }
 }
 
 /// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the end
 /// is taken up at its beginning, so that it is not cut there.
-void ContactList::cut_windows(Tile& tile, int slot, int first_slot, int n) {
+void ContactList::cut_windows(Tile& tile, int slot, int first_slot, int n) const {
   std::vector<int>& near = tile.near;
   near.clear();
   for (int w = 0; 64 * w < n; ++w)
@@ -130,12 +160,14 @@ void ContactList::cut_windows(Tile& tile, int slot, int first_slot, int n) {
   for (int k = 0; k < count;) {
     const int first = ordered(k);
     int length = 1;
+    double distance2 = tile.distance2[first];
     for (++k; k < count; ++k) {
       const int next = ordered(k), ahead = next >= first ? next - first : next + n - first;
       if (ahead >= kernels::window_segments) break;
       length = ahead + 1;
+      distance2 = std::min(distance2, tile.distance2[next]);
     }
-    tile.windows.push_back({slot, first_slot + first, length});
+    tile.windows.push_back({slot, first_slot + first, static_cast<std::int16_t>(length), static_cast<std::int16_t>(band_of(distance2))});
   }
 }
 

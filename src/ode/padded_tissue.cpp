@@ -35,13 +35,12 @@ void PaddedTissue::take_arrays(const Tissue& tissue) {
   pressure_.resize(base_.size());
   area_curvature_.resize(base_.size());
 
-  constexpr int arrays = 28;
+  constexpr int arrays = 23;
   buffer_ = AlignedBuffer(static_cast<std::size_t>(arrays) * (slots_ + 8));
   double* stiffness = nullptr;
-  for (double** array : {&shell.x, &shell.y, &shell.ex, &shell.ey, &shell.length, &shell.inverse_length,
-                         &shell.inverse_length2, &shell.theta, &shell.rest_a, &shell.rest_b, &stiffness, &shell.gx,
-                         &shell.gy, &shell.work_x, &shell.work_y, &hessian.sxx, &hessian.sxy, &hessian.syy, &hessian.nx,
-                         &hessian.ny, &hessian.ax, &hessian.ay, &hessian.vx, &hessian.vy, &hessian.ox, &hessian.oy})
+  for (double** array : {&shell.x, &shell.y, &shell.ex, &shell.ey, &shell.length, &shell.inverse_length, &shell.theta,
+                         &shell.rest_a, &shell.rest_b, &stiffness, &shell.gx, &shell.gy, &hessian.sxx, &hessian.sxy,
+                         &hessian.syy, &hessian.nx, &hessian.ny, &hessian.ax, &hessian.ay, &hessian.vx, &hessian.vy, &hessian.ox, &hessian.oy})
     *array = buffer_.take(slots_);
   for (int c = 0; c < tissue.cell_count(); ++c)
     for (int k = 0; k < count_[c] + kernels::halo; ++k) {
@@ -99,30 +98,12 @@ void PaddedTissue::unpack(std::span<const double> values, double* padded, int bl
   }
 }
 
-void PaddedTissue::pack(const double* padded, std::span<double> values, int block) const {
-  double* target = values.data() + vertices_of(block).begin;
-  for (std::size_t c = blocks_[block].begin; c < blocks_[block].end; ++c) {
-    std::memcpy(target, padded + base_[c] + 1, count_[c] * sizeof(double));
-    target += count_[c];
-  }
-}
-
 void PaddedTissue::fold_and_pack(double* padded, std::span<double> values, int block) const {
-  for (std::size_t c = blocks_[block].begin; c < blocks_[block].end; ++c) {
-    double* a = padded + base_[c];
-    const int n = count_[c];
-    for (int k = kernels::halo - 1; k >= 1; --k) a[k] += a[n + k];
-    a[n] += a[0];
-  }
-  pack(padded, values, block);
+  kernels::best().fold_cells(shell_of(block), padded, values.data() + vertices_of(block).begin);
 }
 
 void PaddedTissue::unpack(std::span<const double> values, double* padded) const {
   for (int b = 0; b < blocks(); ++b) unpack(values, padded, b);
-}
-
-void PaddedTissue::pack(const double* padded, std::span<double> values) const {
-  for (int b = 0; b < blocks(); ++b) pack(padded, values, b);
 }
 
 void PaddedTissue::fold_and_pack(double* padded, std::span<double> values) const {

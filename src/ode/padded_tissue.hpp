@@ -34,12 +34,9 @@ class PaddedTissue {
 
   // Copies, of one block (`values` are the whole tissue's) or of everything.
   void unpack(std::span<const double> values, double* padded, int block) const;
-  void pack(const double* padded, std::span<double> values, int block) const;
   void fold_and_pack(double* padded, std::span<double> values, int block) const;
   /// padded <- contiguous, halo included.
   void unpack(std::span<const double> values, double* padded) const;
-  /// contiguous <- padded, halo ignored.
-  void pack(const double* padded, std::span<double> values) const;
   /// Folds the halo of an accumulated array onto its vertices, then packs.
   void fold_and_pack(double* padded, std::span<double> values) const;
 

@@ -29,10 +29,6 @@ kernels::ContactScalars contact_scalars(const ContactParameters& p) {
   return c;
 }
 
-bool bad_segment(const kernels::Shell& s, int k) {
-  return !(s.length[k] > 0.0) | !(s.rest_a[k] + s.rest_b[k] * s.length[k] > 0.0);
-}
-
 }  // namespace
 
 TissueGradient::TissueGradient(const Tissue& tissue_in, int ring, TissueOdeOptions options_in,
@@ -47,18 +43,15 @@ TissueGradient::TissueGradient(const Tissue& tissue_in, int ring, TissueOdeOptio
       contact(contact_scalars(options.contact)),
       list(std::sqrt(contact.cutoff2), std::sqrt(contact.self2), options.skin, divided(tissue)),
       built_x_(tissue.vertex_count()),
-      built_y_(tissue.vertex_count()) {}
+      built_y_(tissue.vertex_count()),
+      moved2_(padded.blocks()) {}
 
-void TissueGradient::hold_rest_lengths(std::span<const double> rest_length) {
-  workers.for_each(padded.blocks(), [&](int block) { padded.unpack(rest_length, padded.shell.rest_a, block); });
-  if (!plain_) std::fill_n(padded.shell.rest_b, padded.slots(), 0.0);
-  plain_ = true;
-}
+void TissueGradient::hold_rest_lengths(std::span<const double> rest_length) { held_ = rest_length.data(); }
 
 void TissueGradient::let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block) {
   padded.unpack(rest_a, padded.shell.rest_a, block);
   padded.unpack(rest_b, padded.shell.rest_b, block);
-  if (block == 0) plain_ = false;
+  if (block == 0) held_ = nullptr;
 }
 
 Range TissueGradient::points_of(int block) const {
@@ -68,47 +61,43 @@ Range TissueGradient::points_of(int block) const {
 
 /// Everything that needs no other block; then a new list when somebody has moved too far.
 bool TissueGradient::shells_and_list(const StateView& state) {
-  std::atomic<bool> unhealthy = false, stale = rebuilds == 0;
+  std::atomic<bool> unhealthy = false;
   workers.for_each(padded.blocks(), [&](int block) {
-    padded.unpack(state.x, padded.shell.x, block);
-    padded.unpack(state.y, padded.shell.y, block);
-    kernel.shell_gradient(padded.shell_of(block));
-    if (!healthy(block)) unhealthy = true;
-    if (moved(state, padded.vertices_of(block))) stale = true;
+    const Range vertices = padded.vertices_of(block);
+    const double *x = state.x.data() + vertices.begin, *y = state.y.data() + vertices.begin;
+    const kernels::ShellInput input{x, y, held_ != nullptr ? held_ + vertices.begin : nullptr};
+    if (!kernel.shell_gradient(padded.shell_of(block), input)) unhealthy = true;
+    moved2_[block] = kernel.largest_move2(vertices.end - vertices.begin, x, y, &built_x_[vertices.begin], &built_y_[vertices.begin]);
   });
   if (unhealthy) {
     explain_unhealthy();
     return false;
   }
-  if (stale) rebuild(state);
+  const double moved = std::sqrt(*std::max_element(moved2_.begin(), moved2_.end()));
+  if (rebuilds == 0 || 2.0 * moved > options.skin)
+    rebuild(state);
+  else
+    list.age(moved, workers);
   return true;
 }
 
-void TissueGradient::contacts_and_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy) {
+void TissueGradient::add_contacts() {
   list.colours().for_each_tile(workers, [&](int k) {
     const ContactList::Tile& tile = list.tile(k);
-    kernel.contact_gradient(padded.shell, contact, tile.windows.data(), tile.windows.size(), tile.self_pairs.data(),
+    kernel.contact_gradient(padded.shell, contact, tile.active.data(), tile.active.size(), tile.self_pairs.data(),
                             tile.self_pairs.size());
   });
-  workers.for_each(padded.blocks(), [&](int block) {
-    padded.fold_and_pack(padded.shell.gx, gx, block);
-    padded.fold_and_pack(padded.shell.gy, gy, block);
-  });
-  std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
-  std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
+}
+
+void TissueGradient::pack(std::span<double> gx, std::span<double> gy, int block) {
+  padded.fold_and_pack(padded.shell.gx, gx, block);
+  padded.fold_and_pack(padded.shell.gy, gy, block);
+}
+
+void TissueGradient::add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy) {
   MutableStateView gradient;
   gradient.x = gx, gradient.y = gy;
   for (const auto& term : extra) term->add_gradient(t, state, gradient);
-}
-
-bool TissueGradient::healthy(int block) const {
-  const kernels::Shell s = padded.shell_of(block);
-  for (int c = 0; c < s.cells; ++c)
-    if (!(s.area[c] > 0.0)) return false;
-  int failures = 0;  // counted: that loop vectorises, and there are none as a rule
-  for (int c = 0; c < s.cells; ++c)
-    for (int k = s.base[c] + 1; k <= s.base[c] + s.count[c]; ++k) failures += bad_segment(s, k);
-  return failures == 0;
 }
 
 void TissueGradient::explain_unhealthy() {
@@ -119,37 +108,28 @@ void TissueGradient::explain_unhealthy() {
                                          : fmt::format("cell {} has a position that is not finite", c);
       return;
     }
+  const auto rest_length = [&](int k) { return held_ != nullptr ? s.rest_a[k] : s.rest_a[k] + s.rest_b[k] * s.length[k]; };
   int worst = 0;
   for (int c = 0; c < s.cells; ++c)
     for (int k = s.base[c] + 1; k <= s.base[c] + s.count[c]; ++k)
-      if (bad_segment(s, k)) worst = k;
+      if (!(s.length[k] > 0.0) || !(rest_length(k) > 0.0)) worst = k;
   refusal = fmt::format("{}: its segment has length {:.3g} and rest length {:.3g}", tissue.vertex_name(padded.vertex(worst)),
-                        s.length[worst], s.rest_a[worst] + s.rest_b[worst] * s.length[worst]);
+                        s.length[worst], rest_length(worst));
 }
 
-bool TissueGradient::finite(std::span<const double> gx, std::span<const double> gy, Range points) {
-  bool bad = false;
-  for (std::size_t k = points.begin; k < points.end; ++k) bad |= !(std::abs(gx[k]) + std::abs(gy[k]) < 1e300);
-  return !bad;
+bool TissueGradient::finite(std::span<const double> gx, std::span<const double> gy, int block) const {
+  const Range points = points_of(block);
+  const std::size_t n = points.end - points.begin;
+  return kernel.finite(n, gx.data() + points.begin) && kernel.finite(n, gy.data() + points.begin);
 }
 
-/// Finished blocks are finite, so what is found is still a gradient.
+/// Finishing a block leaves finite what was finite, and no more.
 void TissueGradient::explain_infinite(std::span<const double> gx, std::span<const double> gy) {
   for (std::size_t k = 0; k < gx.size(); ++k)
-    if (!finite(gx, gy, {k, k + 1})) {
+    if (!kernel.finite(1, &gx[k]) || !kernel.finite(1, &gy[k])) {
       refusal = fmt::format("{}: the force is not finite (two membranes meet in one point)", point_name(static_cast<int>(k)));
       return;
     }
-}
-
-bool TissueGradient::moved(const StateView& state, Range vertices) const {
-  const double limit = 0.25 * options.skin * options.skin;
-  bool far = false;
-  for (std::size_t k = vertices.begin; k < vertices.end; ++k) {
-    const double dx = state.x[k] - built_x_[k], dy = state.y[k] - built_y_[k];
-    far |= dx * dx + dy * dy > limit;
-  }
-  return far;
 }
 
 void TissueGradient::rebuild(const StateView& state) {

@@ -27,22 +27,28 @@ class TissueGradient {
   void let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block);
 
   /// dU/dr at (x, y) with the rest lengths set before; gx, gy have one entry per point. finish(block) is called, for several
-  /// blocks at once, as soon as the entries of points_of(block) are final.
+  /// blocks at once, as soon as the entries of points_of(block) are final; it returns whether they are finite.
   template <class Finish>
   Evaluation evaluate(double t, const StateView& state, std::span<double> gx, std::span<double> gy, const Finish& finish) {
     if (!shells_and_list(state)) return Evaluation::refused;
-    contacts_and_terms(t, state, gx, gy);
+    add_contacts();
+    std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
+    std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
+    const bool at_once = extra.empty();  // a block is finished while it is in the cache
+    if (!at_once) {
+      workers.for_each(padded.blocks(), [&](int block) { pack(gx, gy, block); });
+      add_terms(t, state, gx, gy);
+    }
     std::atomic<bool> bad = false;
     workers.for_each(padded.blocks(), [&](int block) {
-      if (finite(gx, gy, points_of(block)))
-        finish(block);
-      else
-        bad = true;
+      if (at_once) pack(gx, gy, block);
+      if (!finish(block)) bad = true;
     });
     if (!bad) return Evaluation::ok;
     explain_infinite(gx, gy);
     return Evaluation::refused;
   }
+  bool finite(std::span<const double> gx, std::span<const double> gy, int block) const;
 
   /// Vertices of a block; with the last one, the points of the purse string.
   Range points_of(int block) const;
@@ -62,16 +68,16 @@ class TissueGradient {
 
  private:
   bool shells_and_list(const StateView& state);
-  void contacts_and_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
-  bool healthy(int block) const;
+  void add_contacts();
+  void pack(std::span<double> gx, std::span<double> gy, int block);
+  void add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
   void explain_unhealthy();
-  static bool finite(std::span<const double> gx, std::span<const double> gy, Range points);
   void explain_infinite(std::span<const double> gx, std::span<const double> gy);
-  bool moved(const StateView& state, Range vertices) const;
   void rebuild(const StateView& state);
 
   std::vector<double> built_x_, built_y_;  // positions the list was built for
-  bool plain_ = false;                     // rest_b is zero everywhere
+  std::vector<double> moved2_;             // per block: how far somebody is from there, squared
+  const double* held_ = nullptr;           // rest lengths of a plain evaluation
 };
 
 }  // namespace suture

@@ -17,14 +17,14 @@ struct TissueOde::Impl : TissueGradient {
   Impl(const Tissue& tissue_in, int ring, TissueOdeOptions options_in,
        std::vector<std::shared_ptr<const EnergyTerm>> extra_in, std::span<const double> reference)
       : TissueGradient(tissue_in, ring, std::move(options_in), std::move(extra_in)), preconditioner(tissue, padded, ring, kernel), direct(tissue, padded) {
-    const int vertices = tissue.vertex_count();
-    for (int v = 0; v < vertices; ++v) {
-      const CellMaterial& m = tissue.material(tissue.cell_of(v));
+    for (int c = 0; c < tissue.cell_count(); ++c) {
+      const CellMaterial& m = tissue.material(c);
       inverse_tau.push_back(options.plastic && std::isfinite(m.tau) ? 1.0 / m.tau : 0.0);
       memory.push_back(m.memory);
-      reference_length.push_back(reference.empty() ? tissue.initial_rest_length(v) : reference[v]);
     }
-    for (auto* array : {&length, &rest_a, &rest_b}) array->resize(vertices);
+    const int vertices = tissue.vertex_count();
+    for (int v = 0; v < vertices; ++v) reference_length.push_back(reference.empty() ? tissue.initial_rest_length(v) : reference[v]);
+    for (auto* array : {&rest_a, &rest_b}) array->resize(vertices);
     position_psi.resize(layout.positions());
   }
 
@@ -54,8 +54,8 @@ struct TissueOde::Impl : TissueGradient {
   LinearSolver linear_solver = LinearSolver::structured;
   SparseDirect direct;
   bool factored_directly = false;
-  std::vector<double> inverse_tau, memory, reference_length;
-  std::vector<double> length;
+  std::vector<double> inverse_tau, memory;  // per cell
+  std::vector<double> reference_length;
 
   // The implicit step in progress.
   double step_time = 0.0, gamma = 0.0;
@@ -91,7 +91,7 @@ std::string TissueOde::component_name(int i) const {
 
 Evaluation TissueOde::gradient(double t, const StateView& state, MutableStateView gradient) {
   impl_->hold_rest_lengths(state.rest_length);
-  return impl_->evaluate(t, state, gradient.x, gradient.y, [](int) {});
+  return impl_->evaluate(t, state, gradient.x, gradient.y, [&](int block) { return impl_->finite(gradient.x, gradient.y, block); });
 }
 
 Evaluation TissueOde::rate(double t, std::span<const double> y, std::span<double> out) {
@@ -100,11 +100,13 @@ Evaluation TissueOde::rate(double t, std::span<const double> y, std::span<double
   MutableStateView rate(m.layout, out);
   m.hold_rest_lengths(state.rest_length);
   return m.evaluate(t, state, rate.x, rate.y, [&](int block) {
-    m.visit_positions(block, [&](std::size_t k) { out[k] = -out[k]; });
-    m.padded.pack(m.padded.shell.length, m.length, block);
-    const Range vertices = m.padded.vertices_of(block);
-    for (std::size_t v = vertices.begin; v < vertices.end; ++v)  // [P] Eq. 5 and 10
-      rate.rest_length[v] = -m.inverse_tau[v] * ((state.rest_length[v] - m.length[v]) + m.memory[v] * (m.length[v] - m.reference_length[v]));
+    const Range points = m.points_of(block);
+    const std::size_t n = points.end - points.begin;
+    const bool fine_x = m.kernel.negate(n, &rate.x[points.begin]), fine_y = m.kernel.negate(n, &rate.y[points.begin]);
+    const std::size_t cell = m.padded.cells_of(block).begin, vertex = m.padded.vertices_of(block).begin;
+    m.kernel.rest_length_rate(m.padded.shell_of(block), {&m.inverse_tau[cell], &m.memory[cell], &state.rest_length[vertex],
+                                                         &m.reference_length[vertex], &rate.rest_length[vertex]});
+    return fine_x && fine_y;
   });
 }
 
@@ -115,11 +117,13 @@ void TissueOde::begin_implicit_step(double t, double gamma, std::span<const doub
   const double* memory_psi = psi.data() + m.layout.positions();
   m.for_each_block([&](int block) {
     m.visit_positions(block, [&](std::size_t k) { m.position_psi[k] = psi[k]; });
-    const Range vertices = m.padded.vertices_of(block);
-    for (std::size_t v = vertices.begin; v < vertices.end; ++v) {
-      const double r = gamma * m.inverse_tau[v], scale = 1.0 / (1.0 + r);
-      m.rest_a[v] = (memory_psi[v] + r * m.memory[v] * m.reference_length[v]) * scale;
-      m.rest_b[v] = r * (1.0 - m.memory[v]) * scale;
+    for (std::size_t c = m.padded.cells_of(block).begin; c < m.padded.cells_of(block).end; ++c) {
+      const double r = gamma * m.inverse_tau[c], scale = 1.0 / (1.0 + r), memory = m.memory[c];
+      const int cell = static_cast<int>(c);
+      for (int v = m.tissue.first_vertex(cell); v < m.tissue.end_vertex(cell); ++v) {
+        m.rest_a[v] = (memory_psi[v] + r * memory * m.reference_length[v]) * scale;
+        m.rest_b[v] = r * (1.0 - memory) * scale;
+      }
     }
     m.let_rest_lengths_follow(m.rest_a, m.rest_b, block);
   });
@@ -130,9 +134,11 @@ Evaluation TissueOde::residual(std::span<const double> q, std::span<double> resi
   const int points = m.layout.points();
   const Evaluation evaluation =
       m.evaluate(m.step_time, m.positions_view(q), residual.first(points), residual.subspan(points, points), [&](int block) {
+        const bool fine = m.finite(residual.first(points), residual.subspan(points, points), block);
         m.visit_positions(block, [&m, q, residual, gamma = m.gamma](std::size_t k) {
           residual[k] = (q[k] - m.position_psi[k]) + gamma * residual[k];
         });
+        return fine;
       });
   if (evaluation == Evaluation::ok && !m.extra.empty()) m.linearised_at.assign(q.begin(), q.end());
   return evaluation;

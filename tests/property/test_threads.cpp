@@ -56,10 +56,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 void load(PaddedTissue& padded, const TissueState& state) {
-  padded.unpack(state.view().x, padded.shell.x);
-  padded.unpack(state.view().y, padded.shell.y);
-  padded.unpack(state.view().rest_length, padded.shell.rest_a);
-  kernels::best().shell_gradient(padded.shell);
+  kernels::best().shell_gradient(padded.shell, {state.view().x.data(), state.view().y.data(), state.view().rest_length.data()});
 }
 
 }  // namespace
@@ -123,8 +120,8 @@ TEST_CASE("tiles hold the whole contact list, and those of one colour touch no c
   whole.build(padded.shell, kernels::best());
   tiled.build(padded.shell, kernels::best());
   REQUIRE(tiled.colours().tiles() > 20);
-  const auto key = [](const kernels::Window& w) { return std::array{w.p, w.q, w.segments}; };
-  std::vector<std::array<int, 3>> expected, found;
+  const auto key = [](const kernels::Window& w) { return std::array<int, 4>{w.p, w.q, w.segments, w.band}; };
+  std::vector<std::array<int, 4>> expected, found;
   for (const kernels::Window& w : whole.tile(0).windows) expected.push_back(key(w));
   std::size_t pairs = 0;
   int shared = 0;

@@ -15,9 +15,7 @@ namespace {
 
 /// Positions in place, lengths and segments computed.
 void load(PaddedTissue& padded, const TissueState& state) {
-  padded.unpack(state.view().x, padded.shell.x);
-  padded.unpack(state.view().y, padded.shell.y);
-  kernels::best().shell_gradient(padded.shell);
+  kernels::best().shell_gradient(padded.shell, {state.view().x.data(), state.view().y.data()});
 }
 
 double distance_to_segment(const TissueState& state, int vertex, int segment) {
@@ -30,7 +28,7 @@ double distance_to_segment(const TissueState& state, int vertex, int segment) {
 }
 
 struct Tally {
-  long near = 0, missed = 0, repeated = 0, listed = 0, own = 0, wide = 0, pairs = 0, pair_errors = 0, wrapped = 0;
+  long near = 0, missed = 0, repeated = 0, listed = 0, own = 0, wide = 0, pairs = 0, pair_errors = 0, wrapped = 0, wrong_band = 0;
 };
 
 Tally tally(const TissueState& state, double reach, double self_reach, double skin) {
@@ -45,12 +43,16 @@ Tally tally(const TissueState& state, double reach, double self_reach, double sk
     result.wide += w.segments < 1 || w.segments > 7;
     const int p = padded.vertex(w.p);
     CHECK(padded.slot(p) == w.p);
+    double nearest = 1e300;
     for (int k = 0; k < w.segments; ++k) {
       const int segment = padded.vertex(w.q + k);
       result.own += tissue.cell_of(segment) == tissue.cell_of(p);
       result.wrapped += k > 0 && segment == tissue.first_vertex(tissue.cell_of(segment));
       ++covered[{p, segment}];
+      nearest = std::min(nearest, distance_to_segment(state, p, segment));
     }
+    const double width = skin / (ContactList::bands - 1), tolerance = 1e-12 * (reach + nearest);
+    result.wrong_band += nearest < (w.band == 0 ? 0.0 : reach + (w.band - 1) * width - tolerance) || nearest >= reach + w.band * width + tolerance;
   }
   for (const auto& [key, count] : covered) result.listed += count, result.repeated += count > 1;
   for (int p = 0; p < tissue.vertex_count(); ++p)
@@ -81,6 +83,7 @@ void check(const Tally& t) {
   CHECK(t.repeated == 0);
   CHECK(t.own == 0);
   CHECK(t.wide == 0);
+  CHECK(t.wrong_band == 0);
   CHECK(t.pair_errors == 0);
 }
 

@@ -35,17 +35,16 @@ kernels::ContactScalars scalars(double s, double l1, double l2) {
 std::vector<double> everything(const kernels::Table& table, const TissueState& state, SpringLaw law) {
   PaddedTissue padded(state.tissue, law);
   const int n = state.tissue.vertex_count();
-  padded.unpack(state.view().x, padded.shell.x);
-  padded.unpack(state.view().y, padded.shell.y);
   padded.unpack(state.view().rest_length, padded.shell.rest_a);
   std::fill_n(padded.shell.rest_b, padded.slots(), 0.2);
-  table.shell_gradient(padded.shell);
+  REQUIRE(table.shell_gradient(padded.shell, {state.view().x.data(), state.view().y.data()}));
   ContactList list(0.26, 0.2, 0.1);
   list.build(padded.shell, table);
   const kernels::ContactScalars contact = scalars(0.2, 0.1, 0.3);
-  table.contact_gradient(padded.shell, contact, list.tile(0).windows.data(), list.tile(0).windows.size(), list.tile(0).self_pairs.data(),
-                         list.tile(0).self_pairs.size());
-  std::vector<double> result{static_cast<double>(list.tile(0).windows.size())};
+  const std::vector<kernels::Window>& windows = list.tile(0).windows;
+  const std::vector<kernels::SelfPair>& pairs = list.tile(0).self_pairs;
+  table.contact_gradient(padded.shell, contact, windows.data(), windows.size(), pairs.data(), pairs.size());
+  std::vector<double> result{static_cast<double>(windows.size())};
   std::vector<double> part(n);
   const auto keep = [&](double* padded_values) {
     padded.fold_and_pack(padded_values, part);
@@ -54,10 +53,9 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   keep(padded.shell.gx);
   keep(padded.shell.gy);
   table.shell_linearise(padded.shell, padded.hessian);
-  std::vector<kernels::ContactFactor> factors(16 * list.tile(0).windows.size() + list.tile(0).self_pairs.size());
+  std::vector<kernels::ContactFactor> factors(16 * windows.size() + pairs.size());
   const std::size_t count =
-      table.contact_linearise(padded.shell, contact, list.tile(0).windows.data(), list.tile(0).windows.size(),
-                              list.tile(0).self_pairs.data(), list.tile(0).self_pairs.size(), -100.0, factors.data());
+      table.contact_linearise(padded.shell, contact, windows.data(), windows.size(), pairs.data(), pairs.size(), -100.0, factors.data());
   REQUIRE(count > 50);
   result.push_back(static_cast<double>(count));
   std::vector<double> direction(n);
