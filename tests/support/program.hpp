@@ -11,7 +11,6 @@ struct Outcome {
   int exit_code = -1;  ///< -1: did not exit by itself
   std::string output;  ///< stdout
   std::string errors;  ///< stderr
-  long peak_kilobytes = 0;  ///< memory it had at most
 };
 
 /// Runs `program` (tests pass SUTURE_PROGRAM) with these arguments, without a shell, in `directory`.

@@ -44,22 +44,3 @@ TEST_CASE("suture check tells good, unfinished and foreign files apart by exit c
   const TemporaryDirectory empty;
   CHECK(check(empty, ".").exit_code == 2);
 }
-
-// The address sanitizer keeps what was freed for a while, so that memory grows anyway.
-#ifndef SUTURE_SANITIZED
-TEST_CASE("suture check needs no more memory for more frames", "[cli]") {
-  const TemporaryDirectory directory;
-  const auto peak = [&](int frames) {
-    TrajectoryWriter writer(directory.path() / "run.h5", Provenance{});
-    TissueState state = sample_tissue();
-    for (int i = 0; i < frames; ++i, state.time += 1.0) writer.write_frame(state);
-    writer.close();
-    const Outcome good = check(directory, "run.h5");
-    REQUIRE(good.exit_code == 0);
-    return good.peak_kilobytes;
-  };
-  const long few = peak(500), many = peak(2500);
-  CAPTURE(few, many);
-  CHECK(many - few < 4096);  // 2000 frames are 15 MB in the file, and were 90 MB in memory
-}
-#endif
