@@ -20,6 +20,7 @@ class ProgressLine {
 
   bool terminal_;
   std::string stage_;
+  double first_fraction_ = 0.0;  ///< of the stage, when it was first heard of
   Clock::time_point stage_start_, last_shown_;
   bool open_line_ = false;
 };

@@ -1,10 +1,12 @@
 // XDMF 3 with its numbers in HDF5, one dataset per frame: hyperslabs into common arrays come out wrong or empty in one or
 // the other of ParaView's readers.
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include "export/mesh.hpp"
 #include "io/atomic_file.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/posix_file.hpp"
 
 namespace suture {
 namespace {
@@ -99,18 +101,15 @@ Mesh with_something(Mesh mesh, const Mesh& like, Point where) {
   return mesh;
 }
 
-}  // namespace
-
-std::vector<std::filesystem::path> export_xdmf(const Replay& replay, const ExportRequest& request,
-                                               const std::filesystem::path& directory) {
-  const std::vector<bool> present = series_present(replay, request.frames);
+/// The numbers of all series, frame after frame, and the XML of each series' grids.
+std::vector<std::string> write_numbers(const Replay& replay, const ExportRequest& request, const std::vector<bool>& present,
+                                       const Hdf5Group& root) {
   const std::size_t series = present.size();
-  const Hdf5File file = Hdf5File::create_in_memory();
   std::vector<std::string> grids(series);
   std::vector<Mesh> last(series);  // with points; tells which fields a series has
   for (const int index : request.frames) {
     const std::string frame = fmt::format("{:06}", index);
-    const Hdf5Group group = file.root().create_group(frame);
+    const Hdf5Group group = root.create_group(frame);
     const std::vector<Mesh> meshes = make_meshes(replay.frame(index), replay.scales(), request.units);
     for (std::size_t s = 0; s < series; ++s) {
       if (!present[s]) continue;
@@ -121,10 +120,31 @@ std::vector<std::filesystem::path> export_xdmf(const Replay& replay, const Expor
                       .grid(mesh, export_time(replay, index, request.units));
     }
   }
+  return grids;
+}
+
+/// write_numbers() into a file that appears when it is whole. Throws FileError.
+std::vector<std::string> write_data(const Replay& replay, const ExportRequest& request, const std::vector<bool>& present,
+                                    const std::filesystem::path& path) {
+  std::vector<std::string> grids;
+  write_file_atomically(path, [&](const std::filesystem::path& temporary) {
+    Hdf5File file = Hdf5File::create(temporary);
+    grids = write_numbers(replay, request, present, file.root());
+    file.finish();
+    PosixFile(temporary, O_RDWR).sync();
+  });
+  return grids;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> export_xdmf(const Replay& replay, const ExportRequest& request,
+                                               const std::filesystem::path& directory) {
+  const std::vector<bool> present = series_present(replay, request.frames);
   make_directory(directory);
-  write_file_atomically(directory / data_file, file.image());
+  const std::vector<std::string> grids = write_data(replay, request, present, directory / data_file);
   std::vector<std::filesystem::path> written;
-  for (std::size_t s = 0; s < series; ++s) {
+  for (std::size_t s = 0; s < present.size(); ++s) {
     if (!present[s]) continue;
     written.push_back(directory / fmt::format("{}.xdmf", series_names[s]));
     write_file_atomically(written.back(), xdmf_text(series_names[s], grids[s]));

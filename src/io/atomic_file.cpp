@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/posix_file.hpp"
+#include "suture/errors.hpp"
 
 namespace suture {
 
@@ -49,6 +50,21 @@ void remove_partial_files(const std::filesystem::path& directory) {
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   const std::filesystem::path temporary = temporary_beside(path);
   write_temporary(temporary, bytes);
+  publish_temporary(temporary, path);
+}
+
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(const std::filesystem::path& temporary)>& write) {
+  const std::filesystem::path temporary = temporary_beside(path);
+  try {
+    write(temporary);
+  } catch (const FileError& error) {
+    ::unlink(temporary.c_str());
+    throw FileError(fmt::format("{}: cannot write: {}", path.string(), error.what()));
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
   publish_temporary(temporary, path);
 }
 

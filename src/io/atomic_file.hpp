@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -12,6 +13,11 @@ namespace suture {
 /// the temporary file is gone.
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_file_atomically(const std::filesystem::path& path, std::string_view text);
+
+/// The same for a file that `write` makes under the temporary name it is given, and flushes to the disk. What it throws
+/// removes the temporary file; a FileError is thrown on with the name of the file.
+void write_file_atomically(const std::filesystem::path& path,
+                           const std::function<void(const std::filesystem::path& temporary)>& write);
 
 /// Its parts, for a file that something else writes, or that has to be put in place with others.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);

@@ -32,6 +32,21 @@ void initialise() {
   if (!ready) throw FileError("HDF5 could not be initialised");
 }
 
+/// How files on disk are opened. HDF5 would keep descriptions of up to 32 MiB of a file's objects, which take ten times that in
+/// memory; files are read and written once, from one end to the other, so little need be kept.
+Hdf5Handle disk_access() {
+  Hdf5Handle access = own(H5Pcreate(H5P_FILE_ACCESS), "file access properties");
+  // Published files are immutable (replaced by rename), and locks fail on some network file systems.
+  check(H5Pset_file_locking(access.id(), /*use_file_locking=*/false, /*ignore_when_disabled=*/true), "file locking");
+  H5AC_cache_config_t cache{};
+  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
+  check(H5Pget_mdc_config(access.id(), &cache), "metadata cache");
+  cache.set_initial_size = true;
+  cache.initial_size = cache.min_size = cache.max_size = std::size_t{1} << 20;
+  check(H5Pset_mdc_config(access.id(), &cache), "metadata cache");
+  return access;
+}
+
 template <class T>
 void set_scalar(hid_t object, const std::string& name, hid_t stored, hid_t in_memory, const T& value) {
   const bool exists = check(H5Aexists(object, name.c_str()), name) > 0;
@@ -169,16 +184,13 @@ Hdf5File Hdf5File::create_in_memory() {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path) {
   initialise();
-  const Hdf5Handle access = own(H5Pcreate(H5P_FILE_ACCESS), "file access properties");
-  check(H5Pset_file_locking(access.id(), /*use_file_locking=*/false, /*ignore_when_disabled=*/true), "file locking");
+  const Hdf5Handle access = disk_access();
   return Hdf5File(own(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "creating an HDF5 file"));
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   initialise();
-  const Hdf5Handle access = own(H5Pcreate(H5P_FILE_ACCESS), "file access properties");
-  // Published files are immutable (replaced by rename), and locks fail on some network file systems.
-  check(H5Pset_file_locking(access.id(), /*use_file_locking=*/false, /*ignore_when_disabled=*/true), "file locking");
+  const Hdf5Handle access = disk_access();
   return Hdf5File(own(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), "it cannot be opened as an HDF5 file"));
 }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
@@ -17,6 +18,7 @@
 #include "io/journal.hpp"
 #include "io/trajectory_file.hpp"
 #include "io/trajectory_hashes.hpp"
+#include "io/trajectory_parts.hpp"
 #include "suture/errors.hpp"
 #include "suture/geometry/polygon.hpp"
 #include "suture/io/cell_csv.hpp"
@@ -63,40 +65,58 @@ void check_series(FileReport& out, const std::string& where, std::span<const dou
   if (!std::is_sorted(time.begin(), time.end())) report(out, where + ": time decreases");
 }
 
+/// One frame is in memory at a time.
+void check_frames(FileReport& out, const Hdf5Group& root, const Trajectory& rest) {
+  const Hdf5Group frames = root.group("frames");
+  const bool hashed = has_hashes(root);
+  double previous = -std::numeric_limits<double>::infinity();
+  for (int i = 0, count = marked_frames(root); i < count; ++i) {
+    TrajectoryFrame frame = read_frame(frames, i, rest.tissue);
+    const std::string where = fmt::format("frame {}", i);
+    if (hashed)
+      for (const std::string& problem : hash_problems(frame_group(frames, i), i, frame)) report(out, problem);
+    if (!(frame.time > previous)) report(out, where + ": time does not increase");
+    previous = frame.time;
+    for (const CellField& field : frame.extras.cell_fields)
+      if (!all_finite(field.values)) report(out, fmt::format("{}: {} is not finite", where, field.quantity.name));
+    check_state(out, where, state_of(rest, std::move(frame)));
+  }
+}
+
+std::string content_of(const Trajectory& rest, int frames) {
+  std::string text = fmt::format("trajectory: {} cells, {} frames, {} stages, {} observables, {} events", rest.tissue.cell_count(),
+                                 frames, rest.stages.size(), rest.observables.size(), rest.events.size());
+  for (const Continuation& continuation : rest.continuations)
+    text += fmt::format("; resumed at t = {:.6g} ({})", continuation.time,
+                        continuation.reproducible ? "bit-identical" : "equal to the tolerances");
+  return text;
+}
+
+void check_content(FileReport& out, const std::filesystem::path& path, const Hdf5Group& root) {
+  const Trajectory rest = read_all_but_frames(root);
+  if (has_hashes(root))
+    for (const std::string& problem : hash_problems(root, rest)) report(out, problem);
+  out.content = content_of(rest, marked_frames(root));
+  if (!rest.complete && !is_journal(path))
+    report(out, "the run did not finish: the file ends at the last commit before it stopped");
+  for (const auto& [stage, state] : rest.stages) check_state(out, "stage " + stage_name(stage), state);
+  check_frames(out, root, rest);
+  for (const Series& series : rest.observables) check_series(out, "observable " + series.quantity.name, series.time, series.value);
+}
+
 FileReport check_trajectory(const std::filesystem::path& path) {
+  std::optional<Hdf5File> file;
   try {
-    open_trajectory(path);
+    file = open_trajectory(path);
   } catch (const FileError& error) {
     return unreadable(error.what());
   }
   FileReport out;
-  Trajectory trajectory;
   try {
-    trajectory = read_trajectory(path);
-    for (const std::string& problem : hash_problems(open_trajectory(path).root(), trajectory)) report(out, problem);
+    check_content(out, path, file->root());
   } catch (const std::runtime_error& error) {
-    report(out, error.what());
-    return out;
+    report(out, fmt::format("{}: {}", path.string(), error.what()));
   }
-  out.content = fmt::format("trajectory: {} cells, {} frames, {} stages, {} observables, {} events",
-                            trajectory.tissue.cell_count(), trajectory.frames.size(), trajectory.stages.size(),
-                            trajectory.observables.size(), trajectory.events.size());
-  if (!trajectory.complete && !is_journal(path))
-    report(out, "the run did not finish: the file ends at the last commit before it stopped");
-  for (const Continuation& continuation : trajectory.continuations)
-    out.content += fmt::format("; resumed at t = {:.6g} ({})", continuation.time,
-                               continuation.reproducible ? "bit-identical" : "equal to the tolerances");
-  for (const auto& [stage, state] : trajectory.stages) check_state(out, "stage " + stage_name(stage), state);
-  for (std::size_t i = 0; i < trajectory.frames.size(); ++i) {
-    const std::string where = fmt::format("frame {}", i);
-    check_state(out, where, trajectory.state(static_cast<int>(i)));
-    if (i > 0 && !(trajectory.frames[i].time > trajectory.frames[i - 1].time))
-      report(out, where + ": time does not increase");
-    for (const CellField& field : trajectory.frames[i].extras.cell_fields)
-      if (!all_finite(field.values)) report(out, fmt::format("{}: {} is not finite", where, field.quantity.name));
-  }
-  for (const Series& series : trajectory.observables)
-    check_series(out, "observable " + series.quantity.name, series.time, series.value);
   return out;
 }
 

@@ -4,6 +4,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <limits>
 
 #include "io/atomic_file.hpp"
@@ -43,8 +46,21 @@ void write_provenance(const Hdf5Group& group, const HeaderItem& header) {
   group.write_text("parent", provenance.parent, {"1", "file this run continues; empty if none"});
 }
 
-Hdf5File in_memory(const std::filesystem::path& journal) {
-  TrajectoryFile trajectory(Hdf5File::create_in_memory());
+/// A file that is gone when it is closed.
+Hdf5File create_scratch() {
+  std::string name = std::filesystem::temp_directory_path() / "suture-XXXXXX";
+  const int descriptor = ::mkstemp(name.data());
+  if (descriptor < 0) throw FileError(fmt::format("{}: {}", name, std::strerror(errno)));
+  ::close(descriptor);
+  Hdf5File file = Hdf5File::create(name);
+  ::unlink(name.c_str());
+  return file;
+}
+
+/// What convert_journal would make of it.
+Hdf5File as_hdf5(const std::filesystem::path& journal, std::uintmax_t largest_in_memory) {
+  const bool large = std::filesystem::file_size(journal) > largest_in_memory;
+  TrajectoryFile trajectory(large ? create_scratch() : Hdf5File::create_in_memory());
   JournalReader reader(journal);
   for (std::string block; reader.next(block);) trajectory.add(block);
   trajectory.mark(/*complete=*/false);
@@ -217,21 +233,13 @@ namespace {
 /// build: fills the file, which is then marked and published.
 template <class Build>
 void publish_trajectory(const std::filesystem::path& path, bool complete, Build build) {
-  const std::filesystem::path temporary = temporary_beside(path);
-  try {
+  write_file_atomically(path, [&](const std::filesystem::path& temporary) {
     TrajectoryFile trajectory(Hdf5File::create(temporary));
     build(trajectory);
     trajectory.mark(complete);
     std::move(trajectory).release().finish();
     seal_file(temporary);
-  } catch (const FileError& error) {
-    ::unlink(temporary.c_str());
-    throw FileError(fmt::format("{}: cannot write: {}", path.string(), error.what()));
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    throw;
-  }
-  publish_temporary(temporary, path);
+  });
 }
 
 void note_samples(Recovered& recovered, std::string_view block) {
@@ -275,10 +283,10 @@ Recovered recover_journal(const std::filesystem::path& journal, const std::files
   return recovered;
 }
 
-Hdf5File open_trajectory(const std::filesystem::path& path) {
+Hdf5File open_trajectory(const std::filesystem::path& path, std::uintmax_t largest_in_memory) {
   const bool unpublished = !std::filesystem::exists(path) && is_journal(journal_path(path));
-  Hdf5File file = unpublished        ? in_memory(journal_path(path))
-                  : is_journal(path) ? in_memory(path)
+  Hdf5File file = unpublished        ? as_hdf5(journal_path(path), largest_in_memory)
+                  : is_journal(path) ? as_hdf5(path, largest_in_memory)
                                      : open_sealed(path);
   const Hdf5Group root = file.root();
   if (!root.has_attribute("schema") || root.text_attribute("schema") != trajectory_schema)

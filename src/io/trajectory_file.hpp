@@ -65,9 +65,10 @@ class TrajectoryFile {
   EventColumns pending_events_;
 };
 
-/// Opens run.h5, or a journal as the HDF5 file it would become (in memory); for a run.h5 that does not exist yet, the
-/// journal beside it. Checks the schema attributes. Throws FileError.
-Hdf5File open_trajectory(const std::filesystem::path& path);
+/// Opens run.h5, or a journal as the HDF5 file it would become; for a run.h5 that does not exist yet, the journal beside it.
+/// A journal of more than `largest_in_memory` bytes becomes a nameless file in $TMPDIR. Checks the schema attributes.
+/// Throws FileError.
+Hdf5File open_trajectory(const std::filesystem::path& path, std::uintmax_t largest_in_memory = std::uintmax_t{256} << 20);
 
 /// What recover_journal found.
 struct Recovered {

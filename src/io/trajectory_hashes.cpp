@@ -17,18 +17,24 @@ void compare(const Hdf5Group& group, std::uint64_t found, const std::string& whe
 
 }  // namespace
 
+bool has_hashes(const Hdf5Group& root) {
+  return root.has_attribute("reproducible") || root.group("events").has_attribute("content_hash");
+}
+
+std::vector<std::string> hash_problems(const Hdf5Group& group, int index, const TrajectoryFrame& frame) {
+  std::vector<std::string> problems;
+  compare(group, frame_hash(frame), fmt::format("frame {}", index), problems);
+  return problems;
+}
+
 std::vector<std::string> hash_problems(const Hdf5Group& root, const Trajectory& trajectory) {
   std::vector<std::string> problems;
-  const Hdf5Group events = root.group("events");
-  if (!root.has_attribute("reproducible") && !events.has_attribute("content_hash")) return problems;  // version 0.1.0
+  const Hdf5Group events = root.group("events"), observables = root.group("observables");
   std::uint64_t hash = 0;
   for (const StoredEvent& event : trajectory.events) hash = event_hash(event, hash);
   compare(events, hash, "events", problems);
   for (const auto& [stage, state] : trajectory.stages)
     compare(root.group("stages").group(stage_name(stage)), stage_hash(state), "stage " + stage_name(stage), problems);
-  const Hdf5Group frames = root.group("frames"), observables = root.group("observables");
-  for (std::size_t i = 0; i < trajectory.frames.size(); ++i)
-    compare(frames.group(fmt::format("{:06}", i)), frame_hash(trajectory.frames[i]), fmt::format("frame {}", i), problems);
   for (const Series& series : trajectory.observables) {
     hash = 0;
     for (std::size_t i = 0; i < series.time.size(); ++i) hash = value_hash(series.time[i], series.value[i], hash);

@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "io/hdf5_file.hpp"
 #include "io/journal.hpp"
 #include "io/tissue_state_io.hpp"
 #include "io/trajectory_file.hpp"
+#include "io/trajectory_parts.hpp"
 #include "suture/errors.hpp"
 #include "suture/io/trajectory.hpp"
 
@@ -40,7 +42,7 @@ TissueState read_stage(const Hdf5Group& group) {
           .values = std::move(configuration.values)};
 }
 
-TrajectoryFrame read_frame(const Hdf5Group& group, const Tissue& tissue) {
+TrajectoryFrame read_frame_group(const Hdf5Group& group, const Tissue& tissue) {
   StoredConfiguration configuration = read_configuration(group, tissue.vertex_count());
   TrajectoryFrame frame{.time = configuration.time,
                         .purse_string = std::move(configuration.purse_string),
@@ -59,25 +61,15 @@ TrajectoryFrame read_frame(const Hdf5Group& group, const Tissue& tissue) {
   return frame;
 }
 
-void read_frames(const Hdf5Group& root, Trajectory& trajectory) {
-  const Hdf5Group group = root.group("frames");
-  const std::vector<std::string> names = group.members();
-  const std::int64_t marked = root.integer_attribute("frame_count");
-  if (static_cast<std::int64_t>(names.size()) != marked)
-    throw FileError(fmt::format("{} frames are there, but the commit mark says {}", names.size(), marked));
-  if (names.empty()) return;
+void read_frame_tissue(const Hdf5Group& root, Trajectory& trajectory) {
+  const std::size_t present = root.group("frames").members().size();
+  const int marked = marked_frames(root);
+  if (present != static_cast<std::size_t>(marked))
+    throw FileError(fmt::format("{} frames are there, but the commit mark says {}", present, marked));
+  if (marked == 0) return;
   StoredTissue stored = read_tissue(root.group("tissue"));
   trajectory.tissue = std::move(stored.tissue);
   trajectory.reference_rest_length = std::move(stored.reference_rest_length);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    // Written numbers outgrow six digits, after which the alphabetical order is not the numerical one.
-    const std::string name = fmt::format("{:06}", i);
-    try {
-      trajectory.frames.push_back(read_frame(group.group(name), trajectory.tissue));
-    } catch (const FileError& error) {
-      throw FileError(fmt::format("frame {}: {}", name, error.what()));
-    }
-  }
 }
 
 void read_observables(const Hdf5Group& root, Trajectory& trajectory) {
@@ -130,14 +122,48 @@ auto reading(const std::filesystem::path& path, Read read) {
 
 }  // namespace
 
-TissueState Trajectory::state(int frame) const {
-  const TrajectoryFrame& stored = frames.at(frame);
-  return {.tissue = tissue,
-          .purse_string = stored.purse_string,
-          .reference_rest_length = reference_rest_length,
-          .time = stored.time,
-          .values = stored.values};
+TissueState state_of(const Trajectory& trajectory, TrajectoryFrame frame) {
+  return {.tissue = trajectory.tissue,
+          .purse_string = std::move(frame.purse_string),
+          .reference_rest_length = trajectory.reference_rest_length,
+          .time = frame.time,
+          .values = std::move(frame.values)};
 }
+
+int marked_frames(const Hdf5Group& root) {
+  const std::int64_t marked = root.integer_attribute("frame_count");
+  if (marked < 0 || marked > std::numeric_limits<int>::max()) throw FileError(fmt::format("the commit mark says {} frames", marked));
+  return static_cast<int>(marked);
+}
+
+Hdf5Group frame_group(const Hdf5Group& frames, int index) { return frames.group(fmt::format("{:06}", index)); }
+
+TrajectoryFrame read_frame(const Hdf5Group& frames, int index, const Tissue& tissue) {
+  try {
+    return read_frame_group(frame_group(frames, index), tissue);
+  } catch (const FileError& error) {
+    throw FileError(fmt::format("frame {:06}: {}", index, error.what()));
+  }
+}
+
+Trajectory read_all_but_frames(const Hdf5Group& root) {
+  Trajectory trajectory;
+  trajectory.provenance = read_provenance(root);
+  trajectory.code_version = root.text_attribute("code_version");
+  trajectory.code_commit = root.text_attribute("code_commit");
+  trajectory.complete = root.integer_attribute("complete") == 1;
+  const Hdf5Group stages = root.group("stages");
+  for (const Stage stage : protocol_order)
+    if (stages.has(stage_name(stage))) trajectory.stages.emplace(stage, read_stage(stages.group(stage_name(stage))));
+  read_frame_tissue(root, trajectory);
+  read_observables(root, trajectory);
+  read_events(root, trajectory);
+  read_continuations(root, trajectory);
+  if (root.has("summary")) trajectory.summary = root.text("summary");
+  return trajectory;
+}
+
+TissueState Trajectory::state(int frame) const { return state_of(*this, frames.at(frame)); }
 
 const Series* Trajectory::observable(std::string_view name) const {
   const auto found = std::find_if(observables.begin(), observables.end(),
@@ -147,41 +173,33 @@ const Series* Trajectory::observable(std::string_view name) const {
 
 Trajectory read_trajectory(const std::filesystem::path& path) {
   return reading(path, [](const Hdf5Group& root) {
-    Trajectory trajectory;
-    trajectory.provenance = read_provenance(root);
-    trajectory.code_version = root.text_attribute("code_version");
-    trajectory.code_commit = root.text_attribute("code_commit");
-    trajectory.complete = root.integer_attribute("complete") == 1;
-    const Hdf5Group stages = root.group("stages");
-    for (const Stage stage : protocol_order)
-      if (stages.has(stage_name(stage))) trajectory.stages.emplace(stage, read_stage(stages.group(stage_name(stage))));
-    read_frames(root, trajectory);
-    read_observables(root, trajectory);
-    read_events(root, trajectory);
-    read_continuations(root, trajectory);
-    if (root.has("summary")) trajectory.summary = root.text("summary");
+    Trajectory trajectory = read_all_but_frames(root);
+    const Hdf5Group frames = root.group("frames");
+    for (int i = 0, count = marked_frames(root); i < count; ++i)
+      trajectory.frames.push_back(read_frame(frames, i, trajectory.tissue));
     return trajectory;
   });
 }
 
 struct FrameReader::Impl {
-  Hdf5File file;
-  Hdf5Group root = file.root(), frames = root.group("frames");
-  int count = static_cast<int>(frames.members().size());
-  StoredTissue stored = count > 0 ? read_tissue(root.group("tissue")) : StoredTissue{};
-  std::filesystem::path path;
+  explicit Impl(const std::filesystem::path& path_of_file) : path(path_of_file), file(open_trajectory(path)) {}
 
   TrajectoryFrame frame(int index) const {
     try {
-      return read_frame(frames.group(fmt::format("{:06}", index)), stored.tissue);
+      return read_frame(frames, index, rest.tissue);
     } catch (const std::runtime_error& error) {
-      throw InputError(fmt::format("{}: frame {}: {}", path.string(), index, error.what()));
+      throw InputError(fmt::format("{}: {}", path.string(), error.what()));
     }
   }
+
+  std::filesystem::path path;
+  Hdf5File file;
+  Hdf5Group root = file.root(), frames = root.group("frames");
+  Trajectory rest = read_all_but_frames(root);
+  int count = marked_frames(root);
 };
 
-FrameReader::FrameReader(const std::filesystem::path& path) try
-    : impl_(new Impl{.file = open_trajectory(path), .path = path}) {
+FrameReader::FrameReader(const std::filesystem::path& path) try : impl_(new Impl(path)) {
 } catch (const std::runtime_error& error) {
   throw InputError(fmt::format("{}: {}", path.string(), error.what()));
 }
@@ -189,16 +207,16 @@ FrameReader::FrameReader(const std::filesystem::path& path) try
 FrameReader::FrameReader(FrameReader&&) noexcept = default;
 FrameReader::~FrameReader() = default;
 int FrameReader::count() const { return impl_->count; }
+const Trajectory& FrameReader::all_but_frames() const { return impl_->rest; }
 FrameExtras FrameReader::extras(int frame) const { return impl_->frame(frame).extras; }
-double FrameReader::time(int frame) const { return impl_->frames.group(fmt::format("{:06}", frame)).number("time"); }
+TissueState FrameReader::state(int frame) const { return state_of(impl_->rest, impl_->frame(frame)); }
 
-TissueState FrameReader::state(int frame) const {
-  TrajectoryFrame stored = impl_->frame(frame);
-  return {.tissue = impl_->stored.tissue,
-          .purse_string = std::move(stored.purse_string),
-          .reference_rest_length = impl_->stored.reference_rest_length,
-          .time = stored.time,
-          .values = std::move(stored.values)};
+double FrameReader::time(int frame) const {
+  try {
+    return frame_group(impl_->frames, frame).number("time");
+  } catch (const std::runtime_error& error) {
+    throw InputError(fmt::format("{}: frame {:06}: {}", impl_->path.string(), frame, error.what()));
+  }
 }
 
 std::vector<WoundSample> read_wound_samples(const std::filesystem::path& journal, std::uint64_t length) {

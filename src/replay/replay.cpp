@@ -13,16 +13,16 @@
 namespace suture {
 namespace {
 
-Trajectory read_frames(const std::filesystem::path& path) {
-  Trajectory trajectory = read_trajectory(path);
-  if (trajectory.frames.empty())
-    throw InputError(fmt::format("{}: it holds no frame, so there is nothing to show", path.string()));
-  return trajectory;
+FrameReader open_frames(const std::filesystem::path& path) {
+  FrameReader frames(path);
+  if (frames.count() == 0) throw InputError(fmt::format("{}: it holds no frame, so there is nothing to show", path.string()));
+  return frames;
 }
 
-std::vector<double> frame_times(const Trajectory& trajectory) {
+std::vector<double> frame_times(const FrameReader& frames) {
+  const Trajectory& trajectory = frames.all_but_frames();
   std::vector<double> times;
-  for (const TrajectoryFrame& frame : trajectory.frames) times.push_back(frame.time);
+  for (int i = 0; i < frames.count(); ++i) times.push_back(frames.time(i));
   const auto end = trajectory.stages.find(Stage::closure);
   // Sampling times are rounded, so an end state that merely repeats the last frame may differ from it in the last bits.
   if (end != trajectory.stages.end() && end->second.tissue.vertex_count() == trajectory.tissue.vertex_count() &&
@@ -52,20 +52,20 @@ const Field& ReplayFrame::field(std::string_view name) const {
 }
 
 Replay::Replay(const std::filesystem::path& run)
-    : trajectory_(read_frames(run)),
-      config_(parse_config(trajectory_.provenance.resolved_config, run.string() + ": provenance/resolved_config")),
-      scales_(trajectory_.provenance.units),
-      membrane_(make_membrane(config_.contact, trajectory_.tissue)),
-      times_(frame_times(trajectory_)) {
+    : frames_(open_frames(run)),
+      config_(parse_config(trajectory().provenance.resolved_config, run.string() + ": provenance/resolved_config")),
+      scales_(trajectory().provenance.units),
+      membrane_(make_membrane(config_.contact, trajectory().tissue)),
+      times_(frame_times(frames_)) {
   config_.contact.distance = membrane_.contact_distance;  // the terms expect it resolved
 }
 
 TissueState Replay::state(int index) const {
-  return is_end_state(index) ? trajectory_.stages.at(Stage::closure) : trajectory_.state(index);
+  return is_end_state(index) ? trajectory().stages.at(Stage::closure) : frames_.state(index);
 }
 
 std::optional<double> Replay::wound_fraction(double time) const {
-  const Series* const area = trajectory_.observable("wound_area");
+  const Series* const area = trajectory().observable("wound_area");
   if (area == nullptr || area->time.empty()) return std::nullopt;
   const double largest = *std::max_element(area->value.begin(), area->value.end());
   if (!(largest > 0.0)) return std::nullopt;
@@ -78,7 +78,7 @@ std::optional<double> Replay::wound_fraction(double time) const {
 
 // The hole where the wound was last seen: another one may be larger by now.
 std::vector<Point> Replay::outline_at_end(const TissueState& state) const {
-  const std::vector<Point>& last = trajectory_.frames.back().extras.wound_outline;
+  const std::vector<Point> last = frames_.extras(frames_.count() - 1).wound_outline;
   if (last.size() < 3) return {};
   FreeBoundary boundary(membrane_);
   boundary.evaluate(state.tissue, state.view());
@@ -89,14 +89,17 @@ std::vector<Point> Replay::outline_at_end(const TissueState& state) const {
 }
 
 std::vector<Point> Replay::wound_outline(int index) const {
-  return is_end_state(index) ? outline_at_end(state(index)) : trajectory_.frames[index].extras.wound_outline;
+  return is_end_state(index) ? outline_at_end(state(index)) : frames_.extras(index).wound_outline;
 }
 
 ReplayFrame Replay::frame(int index) const {
-  ReplayFrame frame{.state = state(index), .wound_outline = wound_outline(index), .fields = {}};
-  std::vector<CellField> stored;
-  if (!is_end_state(index)) stored = trajectory_.frames[index].extras.cell_fields;
-  frame.fields = compute_fields(frame.state, config_, membrane_, stored);
+  ReplayFrame frame{.state = state(index), .wound_outline = {}, .fields = {}};
+  FrameExtras extras;
+  if (is_end_state(index))
+    frame.wound_outline = outline_at_end(frame.state);
+  else
+    extras = frames_.extras(index), frame.wound_outline = std::move(extras.wound_outline);
+  frame.fields = compute_fields(frame.state, config_, membrane_, extras.cell_fields);
   return frame;
 }
 

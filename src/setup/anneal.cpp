@@ -17,9 +17,12 @@ EnergyReport shake(const Config& config, TissueState& state, int attempt, const 
   if (watch.resumed) inner.resumed = watch.resumed->motion;
   if (inner.resumed) state = inner.resumed->state;
   std::vector<double> velocities = maxwell_velocities(state, config.anneal.temperature, config.tissue.seed, attempt);
-  TissueOde ode(state.tissue, 0, elastic_options(config, config.contact.adhesion), {});
-  return move_at_constant_energy(ode, make_cell_terms(state.tissue, resolved), state, velocities, config.anneal.duration,
-                                 config.anneal.time_step, inner);
+  const auto make_ode = [&config, tissue = state.tissue] {
+    return std::make_unique<TissueOde>(tissue, 0, elastic_options(config, config.contact.adhesion),
+                                       std::vector<std::shared_ptr<const EnergyTerm>>{});
+  };
+  return move_at_constant_energy(make_ode, make_cell_terms(state.tissue, resolved), state, velocities,
+                                 config.anneal.duration, config.anneal.time_step, config.checkpoint.interval, inner);
 }
 
 }  // namespace

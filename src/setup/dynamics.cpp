@@ -63,53 +63,101 @@ std::vector<double> maxwell_velocities(const TissueState& state, double temperat
   return velocities;
 }
 
-EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
-                                     std::vector<double>& velocities, double duration, double time_step,
-                                     const StepWatch<ConstantEnergyState>& watch) {
-  SUTURE_EXPECTS(velocities.size() == static_cast<std::size_t>(state.layout().positions()));
-  const auto steps = static_cast<long>(std::ceil(duration / time_step - 1e-9));
-  const double step = steps > 0 ? duration / static_cast<double>(steps) : 0.0;
-  std::vector<double> gradient(state.values.size());
-  const auto evaluate = [&] {
-    if (ode.gradient(state.time, state.view(), {state.layout(), gradient}) != Evaluation::ok)
-      throw NumericalError(
-          fmt::format("constant-energy motion at time {:.6g}, step {:.3g}: {}", state.time, step, ode.refusal()));
-  };
-  const auto kick = [&](double time) {
-    for (std::size_t i = 0; i < velocities.size(); ++i) velocities[i] -= time * gradient[i];
-  };
-  const auto energy = [&] {
-    double sum = kinetic_energy(velocities);
-    for (const auto& term : energies) sum += term->energy(state.time, state.view());
-    return sum;
-  };
+namespace {
 
-  double start = state.time;
-  long done = 0;
-  EnergyReport report;
-  if (watch.resumed) {
-    state = watch.resumed->state;
-    velocities = watch.resumed->velocities;
-    start = watch.resumed->start, done = watch.resumed->steps_done, report = watch.resumed->report;
-  } else {
-    report.initial = report.final = energy();
+class ConstantEnergyMotion {
+ public:
+  ConstantEnergyMotion(const MakeOde& make_ode, const TermList& energies, ConstantEnergyState initial, double duration,
+                       double time_step, double checkpoint_interval, const StepWatch<ConstantEnergyState>& watch)
+      : make_ode_(make_ode),
+        energies_(energies),
+        watch_(watch),
+        checkpoint_interval_(checkpoint_interval),
+        steps_(static_cast<long>(std::ceil(duration / time_step - 1e-9))),
+        step_(steps_ > 0 ? duration / static_cast<double>(steps_) : 0.0),
+        now_(std::move(initial)),
+        gradient_(now_.state.values.size()) {
+    if (now_.steps_done == 0) now_.report.initial = now_.report.final = energy();
   }
-  const long sampling = std::max(1L, steps / 10);
-  evaluate();
-  for (long n = done + 1; n <= steps; ++n) {
-    kick(0.5 * step);
-    for (std::size_t i = 0; i < velocities.size(); ++i) state.values[i] += step * velocities[i];
-    state.time = start + static_cast<double>(n) * step;
+
+  ConstantEnergyState run() {
+    double next = next_multiple(now_.start, checkpoint_interval_, now_.state.time);
+    evaluate_afresh();
+    while (now_.steps_done < steps_) {
+      take_step();
+      if (now_.state.time >= next) {
+        // The list of contacts does not change the forces beyond rounding, but what goes on from a checkpoint has none.
+        evaluate_afresh();
+        watch_.offer(SavePoint::configured, [this] { return now_; });
+        next = next_multiple(now_.start, checkpoint_interval_, now_.state.time);
+      } else if (watch_.is_due()) {
+        watch_.offer(SavePoint::between, [this] { return now_; });
+      }
+    }
+    return std::move(now_);
+  }
+
+ private:
+  void take_step() {
+    kick(0.5 * step_);
+    for (std::size_t i = 0; i < now_.velocities.size(); ++i) now_.state.values[i] += step_ * now_.velocities[i];
+    ++now_.steps_done;
+    now_.state.time = now_.start + static_cast<double>(now_.steps_done) * step_;
     evaluate();
-    kick(0.5 * step);
-    if (n % sampling == 0 || n == steps) {
+    kick(0.5 * step_);
+    if (now_.steps_done % std::max(1L, steps_ / 10) == 0 || now_.steps_done == steps_) {
+      EnergyReport& report = now_.report;
       report.final = energy();
       report.largest_deviation = std::max(report.largest_deviation, std::abs(report.final - report.initial));
     }
-    if (watch.is_due())
-      watch.offer(SavePoint::between, [&] { return ConstantEnergyState{state, velocities, start, n, report}; });
   }
-  return report;
+
+  void kick(double time) {
+    for (std::size_t i = 0; i < now_.velocities.size(); ++i) now_.velocities[i] -= time * gradient_[i];
+  }
+
+  void evaluate_afresh() {
+    ode_ = make_ode_();
+    evaluate();
+  }
+
+  void evaluate() {
+    const TissueState& state = now_.state;
+    if (ode_->gradient(state.time, state.view(), {state.layout(), gradient_}) != Evaluation::ok)
+      throw NumericalError(
+          fmt::format("constant-energy motion at time {:.6g}, step {:.3g}: {}", state.time, step_, ode_->refusal()));
+  }
+
+  double energy() const {
+    double sum = kinetic_energy(now_.velocities);
+    for (const auto& term : energies_) sum += term->energy(now_.state.time, now_.state.view());
+    return sum;
+  }
+
+  const MakeOde& make_ode_;
+  const TermList& energies_;
+  const StepWatch<ConstantEnergyState>& watch_;
+  double checkpoint_interval_;
+  long steps_;
+  double step_;
+  ConstantEnergyState now_;
+  std::vector<double> gradient_;
+  std::unique_ptr<TissueOde> ode_;
+};
+
+}  // namespace
+
+EnergyReport move_at_constant_energy(const MakeOde& make_ode, const TermList& energies, TissueState& state,
+                                     std::vector<double>& velocities, double duration, double time_step,
+                                     double checkpoint_interval, const StepWatch<ConstantEnergyState>& watch) {
+  SUTURE_EXPECTS(velocities.size() == static_cast<std::size_t>(state.layout().positions()));
+  ConstantEnergyState initial{.state = state, .velocities = velocities, .start = state.time};
+  if (watch.resumed) initial = *watch.resumed;
+  ConstantEnergyState moved =
+      ConstantEnergyMotion(make_ode, energies, std::move(initial), duration, time_step, checkpoint_interval, watch).run();
+  state = std::move(moved.state);
+  velocities = std::move(moved.velocities);
+  return moved.report;
 }
 
 namespace {

@@ -6,16 +6,8 @@
 
 #include "suture/errors.hpp"
 #include "suture/io/config.hpp"
-#include "suture/version.hpp"
 
 namespace suture {
-
-std::string build_identity() {
-  const BuildInformation& build = build_information();
-  const char* vectors = __builtin_cpu_supports("x86-64-v4") ? "v4" : __builtin_cpu_supports("x86-64-v3") ? "v3" : "v2";
-  return fmt::format("{} {}{} {} {} {} {} x86-64-{}", build.version, build.commit, build.dirty ? "-dirty" : "",
-                     build.compiler, build.flags, build.simd, build.libraries, vectors);
-}
 
 void expect_same_configuration(const std::filesystem::path& directory, const std::string& saved, const Config& now) {
   constexpr std::string_view free_keys[] = {"output.pictures", "run.end_time", "checkpoint.wall_interval",

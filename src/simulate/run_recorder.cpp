@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "simulate/closure_forecast.hpp"
 #include "suture/io/units.hpp"
 #include "suture/measure/cell_shape.hpp"
 #include "suture/measure/closure.hpp"
@@ -149,10 +150,11 @@ void RunRecorder::event(const EventRecord& record) {
 }
 
 void RunRecorder::report(const ClosureSample& s) const {
-  const double closed = 1.0 - fraction_of(s.wound, largest_area_), elapsed = s.time / request_.config.run.end_time;
-  report_progress(progress_, "closure", std::max(closed, elapsed),
+  const RunParameters& run = request_.config.run;
+  const double left = std::min(forecast_closure(samples_, run.closed_area), run.end_time - s.time);
+  report_progress(progress_, "closure", left > 0.0 ? s.time / (s.time + left) : 1.0,
                   fmt::format("t = {:.1f}, wound {:.3f} a0 ({:.0f} %), string {}, step {:.2g}, {} rates", s.time,
-                              s.wound ? s.wound->area : 0.0, 100.0 * (1.0 - closed), s.state.purse_string.size(), s.last_step,
+                              s.wound ? s.wound->area : 0.0, 100.0 * fraction_of(s.wound, largest_area_), s.state.purse_string.size(), s.last_step,
                               s.statistics.rate_evaluations));
 }
 

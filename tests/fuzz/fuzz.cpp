@@ -1,11 +1,11 @@
-// Throws damaged input at the readers. What they must do with it: an InputError or FileError, or a result; never a crash,
-// a hang or an allocation beyond all measure. Build it with the asan preset (scripts/fuzz does).
+// Throws damaged input at the readers, where there is no clang and so no libFuzzer. Build it with the asan preset
+// (scripts/fuzz does).
 //
-//     suture_fuzz TARGET SECONDS CORPUS_FOLDER WORK_FOLDER [SEED]
-//     suture_fuzz TARGET --replay FILE
+//     suture_fuzz READER SECONDS CORPUS_FOLDER WORK_FOLDER [SEED]
+//     suture_fuzz READER --replay FILE
 //
-// Every input lies in WORK_FOLDER/current-TARGET while it is tried, so a crash leaves the culprit there. Inputs come from the
-// corpus by random changes. GCC 12 has no libFuzzer, hence this driver; there is no coverage feedback.
+// Every input lies in WORK_FOLDER/current-READER while it is tried, so a crash leaves the culprit there. Inputs come from the
+// corpus by random changes; there is no coverage feedback.
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -15,20 +15,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "io/checkpoint_file.hpp"
-#include "io/content_hash.hpp"
-#include "simulate/run_checkpoint.hpp"
+#include "fuzz/readers.hpp"
 #include "support/file_bytes.hpp"
-#include "suture/errors.hpp"
-#include "suture/io/config.hpp"
-#include "suture/io/state_csv.hpp"
-#include "suture/io/trajectory_check.hpp"
 
 namespace suture::test {
 namespace {
@@ -72,66 +64,16 @@ std::string mutate(const std::vector<std::string>& corpus, Random& random) {
   return input;
 }
 
-/// Most changes would only ever meet the hash. With it set right again they get to what lies behind.
-void mend_checkpoint(std::string& bytes) {
-  if (bytes.size() < 40) return;
-  const std::uint64_t length = bytes.size() - 32;
-  std::memcpy(bytes.data() + 16, &length, 8);
-  const std::uint64_t hash = content_hash(std::string_view(bytes).substr(0, bytes.size() - 8));
-  std::memcpy(bytes.data() + bytes.size() - 8, &hash, 8);
-}
-
-void mend_journal(std::string& bytes) {
-  // One block as long as it goes: the payload is a sequence of items anyway.
-  if (bytes.size() < 48) return;
-  const std::uint64_t length = bytes.size() - 40;
-  std::memcpy(bytes.data() + 24, &length, 8);
-  const std::uint64_t hash = content_hash(std::string_view(bytes).substr(32, length), 16 * 0x9e3779b97f4a7c15 + length);
-  std::memcpy(bytes.data() + bytes.size() - 8, &hash, 8);
-}
-
-struct Target {
-  std::function<void(const std::filesystem::path& input)> read;
-  std::function<void(std::string& bytes)> mend = {};
-  const char* name_of_input = "input";
-};
-
-void read_checkpoint_file(const std::filesystem::path& path) {
-  const std::string payload = read_checkpoint(path);
-  RunCheckpoint checkpoint;
-  ByteReader reader(payload);
-  reader(checkpoint);
-  if (!checkpoint.resolved_config.empty()) expect_same_configuration(path, checkpoint.resolved_config, Config{});
-}
-
-const std::map<std::string, Target>& targets() {
-  static const std::map<std::string, Target> all{
-      {"toml", {[](const auto& path) { parse_config(read_bytes(path), "fuzz.toml"); }}},
-      {"state_csv", {[](const auto& path) { read_state_csv(path); }}},
-      {"trajectory", {[](const auto& path) { check_file(path); }}},
-      {"journal", {[](const auto& path) { check_file(path); }, mend_journal}},
-      {"checkpoint", {read_checkpoint_file, mend_checkpoint}},
-  };
-  return all;
-}
-
-/// True when the input was accepted.
-bool try_input(const Target& target, const std::filesystem::path& path) {
+/// As try_input, within a limit of time.
+bool try_in_time(const Reader& reader, const std::filesystem::path& path) {
   constexpr unsigned longest = 20;  // s
   alarm(longest);
-  bool accepted = true;
-  try {
-    target.read(path);
-  } catch (const InputError&) {
-    accepted = false;
-  } catch (const FileError&) {
-    accepted = false;
-  }
+  const bool accepted = try_input(reader, path);
   alarm(0);
   return accepted;
 }
 
-int fuzz(const std::string& name, const Target& target, double seconds, const std::filesystem::path& folder,
+int fuzz(const std::string& name, const Reader& reader, double seconds, const std::filesystem::path& folder,
          const std::filesystem::path& work, std::uint64_t seed) {
   std::vector<std::string> corpus;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) corpus.push_back(read_bytes(entry.path()));
@@ -143,9 +85,9 @@ int fuzz(const std::string& name, const Target& target, double seconds, const st
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   for (; elapsed() < seconds; ++tried) {
     std::string bytes = tried < static_cast<long>(corpus.size()) ? corpus[static_cast<std::size_t>(tried)] : mutate(corpus, random);
-    if (target.mend && random() % 4 != 0) target.mend(bytes);
+    if (reader.mend && random() % 4 != 0) reader.mend(bytes);
     write_bytes(input, bytes);
-    accepted += try_input(target, input);
+    accepted += try_in_time(reader, input);
   }
   std::filesystem::remove(input);
   std::printf("%s: %ld inputs in %.0f s, %ld accepted, seed %llu\n", name.c_str(), tried, elapsed(), accepted,
@@ -159,17 +101,17 @@ int fuzz(const std::string& name, const Target& target, double seconds, const st
 int main(int argc, char** argv) {
   using namespace suture::test;
   const std::vector<std::string> arguments(argv + 1, argv + argc);
-  if (arguments.size() < 3 || !targets().contains(arguments[0]))
+  if (arguments.size() < 3 || !fuzzed_readers().contains(arguments[0]))
     return std::fprintf(stderr, "usage: suture_fuzz toml|state_csv|trajectory|journal|checkpoint SECONDS CORPUS WORK [SEED]\n"), 2;
-  const Target& target = targets().at(arguments[0]);
+  const Reader& reader = fuzzed_readers().at(arguments[0]);
 #ifndef SUTURE_SANITIZED
   const rlimit limit{rlim_t{4} << 30, rlim_t{4} << 30};  // an allocation beyond all measure ends in bad_alloc, a crash
   setrlimit(RLIMIT_AS, &limit);
 #endif
   if (arguments[1] == "--replay") {
-    std::printf("%s\n", try_input(target, arguments[2]) ? "accepted" : "refused");
+    std::printf("%s\n", try_in_time(reader, arguments[2]) ? "accepted" : "refused");
     return 0;
   }
   const std::uint64_t seed = arguments.size() > 4 ? std::stoull(arguments[4]) : std::random_device{}();
-  return fuzz(arguments[0], target, std::stod(arguments[1]), arguments[2], arguments[3], seed);
+  return fuzz(arguments[0], reader, std::stod(arguments[1]), arguments[2], arguments[3], seed);
 }

@@ -23,13 +23,15 @@ const Packing& packed_small_tissue() {
   return packing;
 }
 
-TissueOde elastic_ode(const Config& config, const Tissue& tissue) {
+MakeOde elastic_forces(const Config& config, const Tissue& tissue) {
   TissueOdeOptions options;
   options.membrane_law = config.membrane.law;
   options.contact = config.contact;
   options.contact.distance = tissue.mean_initial_rest_length();
   options.plastic = false;
-  return {tissue, 0, options, {}};
+  return [tissue, options] {
+    return std::make_unique<TissueOde>(tissue, 0, options, std::vector<std::shared_ptr<const EnergyTerm>>{});
+  };
 }
 
 }  // namespace suture::test

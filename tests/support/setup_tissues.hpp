@@ -2,7 +2,7 @@
 #pragma once
 
 #include "suture/model/parameters.hpp"
-#include "suture/ode/tissue_ode.hpp"
+#include "suture/setup/dynamics.hpp"
 #include "suture/setup/packing.hpp"
 
 namespace suture::test {
@@ -13,7 +13,7 @@ Config small_config();
 /// The packing of small_config(), computed once.
 const Packing& packed_small_tissue();
 
-/// The tissue of `config` without plasticity, wall or purse string.
-TissueOde elastic_ode(const Config& config, const Tissue& tissue);
+/// Makes the tissue of `config` without plasticity, wall or purse string.
+MakeOde elastic_forces(const Config& config, const Tissue& tissue);
 
 }  // namespace suture::test

@@ -74,6 +74,21 @@ def check_playing(browser):
     expect(pixels(browser) != picture, "playing does not change the picture")
 
 
+def measure_drawing(browser, count=300):
+    """Frames, and the milliseconds of processor time one picture takes, of `count` spread over the run. Reported, not judged:
+    it depends on the machine. 30 pictures per second leave 33 ms for each."""
+    def seconds():
+        return {m["name"]: m["value"] for m in browser.send("Performance.getMetrics")["metrics"]}["TaskDuration"]
+
+    browser.send("Performance.enable", timeDomain="threadTicks")
+    before = seconds()
+    frames = browser.evaluate(f"""(() => {{ const before = suture.time, pixels = document.getElementById('stage').getContext('2d');
+        for (let k = 0; k < {count}; ++k) {{ suture.time = suture.run.duration * k / {count - 1}; suture.draw();
+          pixels.getImageData(0, 0, 1, 1); }}  // waits until the picture is there
+        suture.time = before; suture.dirty = true; return suture.run.frames; }})()""")
+    return frames, 1000.0 * (seconds() - before) / count
+
+
 def check_scrubbing(browser):
     box = browser.evaluate("(() => { const b = document.getElementById('timeline').getBoundingClientRect(); return [b.left, b.top, b.width]; })()")
     left, right = browser.evaluate("[suture.timeline.left, suture.timeline.right]")
@@ -128,11 +143,15 @@ def check_themes(browser):
 
 browser = Browser(program)
 try:
+    frames, cost = 0, 0.0
     for check in (check_loading, check_playing, check_scrubbing, check_clicking, check_fields, check_themes):
         check(browser)
+        if check is check_playing:
+            frames, cost = measure_drawing(browser)
     for problem in browser.problems:
         expect(False, problem)
 finally:
     browser.close()
-print(f"page: {len(problems)} problems" if problems else "page: loads, plays, scrubs, clicks, colours, themes")
+print(f"page: {len(problems)} problems" if problems else
+      f"page: loads, plays, scrubs, clicks, colours, themes; {frames} frames, {cost:.1f} ms of processor time for a picture")
 sys.exit(1 if problems else 0)

@@ -145,7 +145,8 @@ struct Trajectory {
 /// contradicts itself.
 Trajectory read_trajectory(const std::filesystem::path& path);
 
-/// One frame after the other, of files that are larger than memory. Throws InputError as read_trajectory.
+/// One frame after the other, of files that are larger than memory. A journal of more than 256 MiB is turned into a scratch
+/// file in $TMPDIR (else /tmp), which is gone when the reader is. Throws InputError as read_trajectory.
 class FrameReader {
  public:
   explicit FrameReader(const std::filesystem::path& path);
@@ -155,6 +156,8 @@ class FrameReader {
   TissueState state(int frame) const;
   double time(int frame) const;
   FrameExtras extras(int frame) const;
+  /// Everything else in the file; its `frames` are empty.
+  const Trajectory& all_but_frames() const;
 
  private:
   struct Impl;

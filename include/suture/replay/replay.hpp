@@ -39,10 +39,12 @@ struct ReplayFrame {
 
 class Replay {
  public:
-  /// Reads the file. Throws InputError when it is no readable run.h5 or holds no frame.
+  /// Opens the file, whose frames are read one at a time as they are asked for; that may throw InputError later. Throws
+  /// InputError when it is no readable run.h5 or holds no frame.
   explicit Replay(const std::filesystem::path& run);
 
-  const Trajectory& trajectory() const { return trajectory_; }
+  /// Everything in the file but the frames; `frames` is empty.
+  const Trajectory& trajectory() const { return frames_.all_but_frames(); }
   const Config& config() const { return config_; }
   const UnitScales& scales() const { return scales_; }
   const Membrane& membrane() const { return membrane_; }
@@ -67,10 +69,10 @@ class Replay {
   ReplayFrame frame(int index) const;
 
  private:
-  bool is_end_state(int index) const { return index >= static_cast<int>(trajectory_.frames.size()); }
+  bool is_end_state(int index) const { return index >= frames_.count(); }
   std::vector<Point> outline_at_end(const TissueState& state) const;
 
-  Trajectory trajectory_;
+  FrameReader frames_;
   Config config_;
   UnitScales scales_;
   Membrane membrane_;

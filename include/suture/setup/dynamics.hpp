@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -35,12 +37,16 @@ struct ConstantEnergyState {
   EnergyReport report;
 };
 
+using MakeOde = std::function<std::unique_ptr<TissueOde>()>;
+
 /// Constant-energy motion of unit masses by velocity Verlet (Swope, Andersen, Berens & Wilson 1982), second order in
 /// the step; `duration` is covered in equal steps of at most `time_step`. Updates positions, velocities and time.
-/// energies: the terms `ode` is the gradient of; their sum is sampled about ten times on the way.
-/// Throws NumericalError when the forces cannot be computed.
-EnergyReport move_at_constant_energy(TissueOde& ode, const TermList& energies, TissueState& state,
+/// make_ode: the forces; called at the beginning and at every multiple of `checkpoint_interval`, so that no contact list is
+/// older than the checkpoint taken there. energies: the terms it is the gradient of; their sum is sampled about ten times on
+/// the way. Throws NumericalError when the forces cannot be computed.
+EnergyReport move_at_constant_energy(const MakeOde& make_ode, const TermList& energies, TissueState& state,
                                      std::vector<double>& velocities, double duration, double time_step,
+                                     double checkpoint_interval = std::numeric_limits<double>::infinity(),
                                      const StepWatch<ConstantEnergyState>& watch = {});
 
 /// Told how far a motion is: fraction from 0 to 1, and one line for a person.

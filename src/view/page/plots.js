@@ -47,7 +47,7 @@ function seekByPointer(element, timeAt, seek) {
 class Plot {
   // output: element that shows the value at the cursor.
   constructor(canvas, output, duration, seek) {
-    Object.assign(this, {canvas, output, duration, left: 38, right: 8, top: 8, bottom: 18});
+    Object.assign(this, {canvas, output, duration, left: 46, right: 8, top: 8, bottom: 18});
     seekByPointer(canvas, px => this.duration * Math.min(1, Math.max(0,
       (px - this.left) / (canvas.clientWidth - this.left - this.right))), seek);
   }

@@ -1,6 +1,7 @@
 // A small run that writes often, and what must be true of its folder whatever happened to it.
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -12,8 +13,11 @@
 
 namespace suture::test {
 
-/// Long forms of the fault tests: SUTURE_LONG_TESTS=1 (scripts/nightly).
+/// Long forms of the fault tests (scripts/nightly).
 inline bool long_tests() { return std::getenv("SUTURE_LONG_TESTS") != nullptr; }
+
+/// SUTURE_LONG_TESTS=n: every n-th write, fsync and rename fails.
+inline long every_nth() { return std::max(1L, std::atol(std::getenv("SUTURE_LONG_TESTS"))); }
 
 /// Configured checkpoints every 0.4, samples every 0.1, a frame every 0.3, flushed each: in a tenth of a second.
 inline std::vector<std::string> busy_run(const std::string& out, bool resume) {

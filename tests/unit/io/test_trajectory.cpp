@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "io/trajectory_file.hpp"
+#include "io/trajectory_parts.hpp"
 #include "support/file_bytes.hpp"
 #include "support/program.hpp"
 #include "support/sample_tissue.hpp"
@@ -179,6 +181,15 @@ TEST_CASE("what was committed is readable from the journal, what was not is lost
   const FileReport report = check_file(folder.path() / "run.journal");
   CHECK(report.verdict == FileVerdict::valid);
   CHECK_THAT(report.content, Contains("unfinished") && Contains("1 frames") && Contains("1 blocks"));
+  // One that does not fit into memory is read by way of a scratch file.
+  {
+    const Hdf5File scratch = open_trajectory(folder.path() / "run.journal", 0);
+    const Trajectory rest = read_all_but_frames(scratch.root());
+    CHECK(rest.frames.empty());
+    CHECK(rest.provenance.seed == sample_provenance().seed);
+    REQUIRE(marked_frames(scratch.root()) == 1);
+    check_same_state(state_of(rest, read_frame(scratch.root().group("frames"), 0, rest.tissue)), sample_tissue());
+  }
   CHECK(folder.contents() == std::vector<std::string>{"run.journal"});
 }
 

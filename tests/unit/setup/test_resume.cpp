@@ -43,12 +43,14 @@ Preparation resume(const Config& config, const std::string& bytes) {
   return prepare_tissue(config, {}, {}, std::move(watch));
 }
 
-std::size_t step_of(const std::string& bytes) {
+PreparationState state_of(const std::string& bytes) {
   PreparationState state;
   ByteReader reader(bytes);
   reader(state);
-  return state.step.index();
+  return state;
 }
+
+std::size_t step_of(const std::string& bytes) { return state_of(bytes).step.index(); }
 
 }  // namespace
 
@@ -68,6 +70,28 @@ TEST_CASE("a preparation resumed from any special point has the bits of an unint
   }
   CHECK(resumed >= 8);
   for (const int count : within) CHECK(count > 0);
+}
+
+TEST_CASE("the constant-energy motion of the anneal resumed from a configured time has the bits of an uninterrupted one", "[unit][resume]") {
+  Config config = small_config();
+  config.run.last_stage = Stage::anneal;
+  config.anneal.temperature = 0.3;  // fast enough to renew its list of contacts between two checkpoints
+  config.anneal.relaxation_time = 1.0;
+  config.checkpoint.interval = 0.17;  // not a multiple of the step
+  std::vector<Saved> saved;
+  const std::string whole = to_bytes(prepare(config, saved, 0));
+  int resumed = 0;
+  for (const Saved& one : saved) {
+    const PreparationState state = state_of(one.bytes);
+    const AnnealState* const anneal = std::get_if<AnnealState>(&state.step);
+    if (anneal == nullptr || !anneal->motion) continue;
+    CAPTURE(anneal->motion->steps_done);
+    CHECK(one.point == SavePoint::configured);
+    const bool same = to_bytes(resume(config, one.bytes)) == whole;
+    CHECK(same);
+    ++resumed;
+  }
+  CHECK(resumed >= 5);  // of every attempt
 }
 
 TEST_CASE("a preparation resumed from anywhere else agrees to its tolerance", "[unit][resume]") {
