@@ -14,6 +14,8 @@ from plotting import read, select
 
 
 def shape(row, printed):
+    if row["healed_shape_sem"] == "" or printed["healed_shape_sem"] == "":
+        return f"{row['healed_shape_mean']:.3f}"
     text = f"{row['healed_shape_mean']:.3f} ± {row['healed_shape_sem']:.3f}"
     error = math.hypot(row["healed_shape_sem"], printed["healed_shape_sem"])
     return text + (" *" if row is not printed and abs(row["healed_shape_mean"] - printed["healed_shape_mean"]) > 2 * error else "")
