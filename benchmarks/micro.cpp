@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "groups.hpp"
 #include "suture/errors.hpp"
+#include "threads/ranges.hpp"
 
 namespace suture::benchmark {
 
@@ -61,7 +63,64 @@ void measure_tissue(const char* name, const Config& config, const TissueState& s
   report.add(std::move(m));
 }
 
+double wall_seconds(int calls, const std::function<void()>& body) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < calls; ++k) body();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / calls;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+/// One thread and two in turn, in wall time.
+void append_speed_up(Measurement& m, const Config& config, const TissueState& state, TissueOde& alone, int repeats) {
+  Config shared = config;
+  shared.integrator.threads = 2;
+  const std::unique_ptr<TissueOde> both = make_ode(shared, state);
+  std::vector<double> out(state.values.size()), one, two, ratio;
+  require(both->rate(0.0, state.values, out), *both);
+  constexpr int calls = 10;
+  for (int k = 0; k < repeats; ++k) {
+    one.push_back(wall_seconds(calls, [&] { require(alone.rate(0.0, state.values, out), alone); }));
+    two.push_back(wall_seconds(calls, [&] { require(both->rate(0.0, state.values, out), *both); }));
+    ratio.push_back(one.back() / two.back());
+  }
+  const double per_vertex = 1e9 / state.tissue.vertex_count();
+  m.values.emplace_back("wall_ns_1_thread", median(one) * per_vertex);
+  m.values.emplace_back("wall_ns_2_threads", median(two) * per_vertex);
+  m.values.emplace_back("speed_up", median(ratio));
+}
+
+void measure_rate(const Config& config, const TissueState& state, int repeats, Report& report) {
+  const std::unique_ptr<TissueOde> ode = make_ode(config, state);
+  const double skin = config.integrator.skin * state.tissue.mean_initial_rest_length();
+  std::vector<double> out(state.values.size()), moved(state.values);
+  Measurement m{"rate", "N ladder (tiles)", {}, {}};
+  m.parameters = {{"cells", state.tissue.cell_count()}, {"vertices", state.tissue.vertex_count()}};
+  const auto add = [&](const char* what, const std::vector<double>& y) {
+    require(ode->rate(0.0, y, out), *ode);
+    m.values.emplace_back(what, 1e9 / state.tissue.vertex_count() * time_body(repeats, [&] { require(ode->rate(0.0, y, out), *ode); }).median);
+  };
+  add("fresh_list_ns", state.values);
+  for (int k = 0; k < ode->position_count() / 2; ++k) moved[k] += 0.25 * skin;  // half of what a list bears
+  add("aged_list_ns", moved);
+  for (int k = 0; k < ode->position_count() / 2; ++k) moved[k] += 0.24 * skin;
+  add("old_list_ns", moved);
+  if (state.tissue.vertex_count() >= divided_from_vertices) append_speed_up(m, config, state, *ode, repeats);
+  report.add(std::move(m));
+}
+
 }  // namespace
+
+void measure_rates(const Settings& settings, Report& report) {
+  const Packed patch = packed_tissue(settings.smoke ? 6 : 45, settings.smoke ? 12 : 30, true);
+  std::vector<int> cells = settings.smoke ? std::vector{12} : std::vector{45, 450, 9990};
+  if (settings.long_runs) cells.push_back(99990);
+  for (const int count : cells)
+    measure_rate(patch.config, tiled(patch.state, count / patch.state.tissue.cell_count(), *patch.config.contact.distance), settings.repeats, report);
+}
 
 void measure_kernels(const Settings& settings, Report& report) {
   const std::vector<int> ladder = settings.smoke ? std::vector{15} : std::vector{15, 30, 60, 120, 240};

@@ -59,10 +59,12 @@ TissueState tiled(const TissueState& patch, int copies, double contact_distance)
   return all;
 }
 
-Packed wounded_tissue(bool small) {
+Packed wounded_tissue(bool small, std::optional<int> vertices) {
   Packed wounded;
   const std::string name = small ? "small" : "embryo";
-  wounded.config = with_contact_distance(read_config(std::string(SUTURE_SOURCE_DIR) + "/examples/" + name + ".toml"));
+  wounded.config = read_config(std::string(SUTURE_SOURCE_DIR) + "/examples/" + name + ".toml");
+  wounded.config.tissue.vertices = vertices.value_or(wounded.config.tissue.vertices);
+  wounded.config = with_contact_distance(wounded.config);
   wounded.seconds = time_calls(1, [&] { wounded.state = prepare_tissue(wounded.config).state; }).median;
   wounded.state.time = 0.0;
   return wounded;

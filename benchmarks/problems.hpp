@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "report.hpp"
@@ -29,7 +30,8 @@ TissueState tiled(const TissueState& patch, int copies, double contact_distance)
 Packed honeycomb_with_wound(int cells, int vertices, double relaxation_time);
 
 /// A relaxed wound: examples/embryo.toml (seed 1, 50 cells less 5) or, for a smoke test, examples/small.toml.
-Packed wounded_tissue(bool small);
+/// vertices: per cell, if not as in the example.
+Packed wounded_tissue(bool small, std::optional<int> vertices = {});
 
 /// The same wound with a purse string on it and the given material: smooth as long as no event is processed.
 TissueState with_ring(const Config& config, const TissueState& wounded);

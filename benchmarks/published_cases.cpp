@@ -5,6 +5,9 @@
 #include <algorithm>
 
 #include "groups.hpp"
+#include "sampled.hpp"
+#include "suture/converge/study.hpp"
+#include "suture/errors.hpp"
 
 namespace suture::benchmark {
 
@@ -72,23 +75,26 @@ void measure_cases(const Settings& settings, Report& report, const Packed& wound
 }
 
 void measure_tolerance_grid(const Settings& settings, Report& report, const Packed& wounded) {
-  const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 100.0 : 5.0;
+  constexpr double tightest = 1e-4;
+  const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 20.0 : 5.0;
   for (const double area_stiffness : {0.25, 1.0, 16.0, 40.0, 256.0})
     for (const double tau : {2.4, 9.6, 76.8, 1228.8, 39321.6}) {
       if (settings.smoke && (area_stiffness != 16.0 || tau != 9.6)) continue;
-      Packed problem = wounded;
-      set_material(problem, area_stiffness, tau);
-      const TissueState state = with_ring(problem.config, problem.state);
-      const Reference reference = make_reference(problem, state, horizon, 1e-7);
-      for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
-        const Integrated result = integrate(problem.config, state, with_tolerance(Method::cvode, tolerance, state), horizon);
-        const PositionErrors errors = position_errors(state, result.y, reference.y);
-        Measurement m{"grid", "error over tolerance", {{"k_a", area_stiffness}, {"tau", tau}, {"tolerance", tolerance}, {"horizon", horizon}}, {}};
-        m.values = {{"ratio", errors.rms / tolerance}, {"ratio_max", errors.largest / tolerance}, {"within", errors.rms / tolerance >= 0.01 && errors.rms / tolerance <= 10.0},
-                    {"uncertainty_ratio", reference.uncertainty.rms / tolerance}};
-        append_counts(m, result.statistics);
-        report.add(std::move(m));
-      }
+      Packed material = wounded;
+      set_material(material, area_stiffness, tau);
+      const Smooth problem{material.config, with_ring(material.config, material.state)};
+      const SampledReference reference = sampled_reference(problem, horizon, 1e-7, 0.1 * tightest);
+      if (reference.count() == 0) throw NumericalError("grid: the references agree nowhere");
+      for (const Method method : {Method::cvode, Method::rkc2})
+        for (const double tolerance : {1e-2, 1e-3, tightest}) {
+          const Samples run = sample(problem, with_tolerance(method, tolerance, problem.state), reference.interval, reference.count());
+          const double error = sampled_error(problem, run, reference);
+          Measurement m{"grid", method_name(method), {{"k_a", area_stiffness}, {"tau", tau}, {"tolerance", tolerance}, {"horizon", horizon}}, {}};
+          m.values = {{"error", error}, {"ratio", error / tolerance}, {"within", error >= 0.01 * tolerance && error <= 10.0 * tolerance},
+                      {"agreed_until", reference.agreed_until()}, {"uncertainty", reference.uncertainty}};
+          append_counts(m, run.statistics);
+          report.add(std::move(m));
+        }
     }
 }
 

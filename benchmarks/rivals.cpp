@@ -1,0 +1,95 @@
+// What 1e-3 l0 costs by each method: the cheapest run whose error is no larger, Euler with the largest step that is stable and
+// accurate enough, on smooth problems (ring on, no events) up to the time at which two references part.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "groups.hpp"
+#include "sampled.hpp"
+#include "suture/converge/study.hpp"
+#include "suture/errors.hpp"
+
+namespace suture::benchmark {
+
+namespace {
+
+constexpr double asked = 1e-3;  // error in l0
+
+struct Run {
+  double value = 0.0, error = 0.0, seconds = 0.0;  // tolerance or step
+  Statistics statistics;
+};
+
+/// Loosest of `values`, tried in order, whose error is small enough.
+Run cheapest(const Smooth& problem, const SampledReference& reference, Method method, const std::vector<double>& values, int repeats) {
+  for (const double value : values) {
+    const IntegratorOptions options =
+        method == Method::euler ? with_step(method, value, problem.state) : with_tolerance(method, value, problem.state);
+    Run run;
+    run.value = value;
+    try {
+      const Samples samples = sample(problem, options, reference.interval, reference.count());
+      run.error = sampled_error(problem, samples, reference);
+      run.statistics = samples.statistics;
+    } catch (const NumericalError&) {
+      continue;  // a step beyond the stability limit
+    }
+    if (!(run.error <= asked)) continue;
+    run.seconds = time_calls(repeats, [&] { sample(problem, options, reference.interval, reference.count()); }).median;
+    return run;
+  }
+  throw NumericalError(fmt::format("rivals: {} reaches no error of {:g}", method_name(method), asked));
+}
+
+/// From above the stability limit at 30 vertices down; stiffness grows as the square of their number.
+std::vector<double> euler_steps(int vertices, double stiffening) {
+  std::vector<double> steps;
+  for (double h = 0.006 * std::pow(30.0 / vertices, 2.0); h > 1e-6 / stiffening && steps.size() < 30; h *= 0.8) steps.push_back(h);
+  return steps;
+}
+
+void compare(const Settings& settings, Report& report, const std::string& name, const Packed& wounded, double horizon, double stiffening) {
+  const Smooth problem{wounded.config, with_ring(wounded.config, wounded.state)};
+  const SampledReference reference = sampled_reference(problem, horizon, 1e-2 * asked, 0.1 * asked);
+  if (reference.count() == 0) throw NumericalError("rivals: the references agree nowhere");
+  const std::vector<double> tolerances{1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5};
+  const std::pair<Method, std::vector<double>> methods[] = {
+      {Method::euler, euler_steps(wounded.config.tissue.vertices, stiffening)}, {Method::rkc2, tolerances}, {Method::cvode, tolerances}};
+  double euler_seconds = 0.0, rkc2_seconds = 0.0;
+  for (const auto& [method, values] : methods) {
+    const Run run = cheapest(problem, reference, method, values, settings.repeats);
+    if (method == Method::euler) euler_seconds = run.seconds;
+    if (method == Method::rkc2) rkc2_seconds = run.seconds;
+    Measurement m{"rivals", fmt::format("{}: {}", name, method_name(method)), {}, {}};
+    m.parameters = {{"k_a", wounded.config.area.stiffness}, {"tau", wounded.config.plasticity.tau}, {"n_v", wounded.config.tissue.vertices},
+                    {"ring_stiffness", wounded.config.purse_string.stiffness}, {"agreed_until", reference.agreed_until()}};
+    m.values = {{"tolerance_or_step", run.value}, {"error", run.error}, {"seconds", run.seconds},
+                {"euler_over_this", euler_seconds / run.seconds}, {"this_over_rkc2", run.seconds / std::max(rkc2_seconds, 1e-30)}};
+    if (method == Method::euler) m.values.pop_back();
+    append_counts(m, run.statistics);
+    report.add(std::move(m));
+  }
+}
+
+}  // namespace
+
+void measure_rivals(const Settings& settings, Report& report, const Packed& wounded) {
+  const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 40.0 : 10.0;
+  for (const double area_stiffness : {1.0, 16.0, 40.0})
+    for (const double tau : {4.8, 76.8, 1228.8, 39321.6}) {
+      if (settings.smoke && (area_stiffness != 16.0 || tau != 76.8)) continue;
+      Packed node = wounded;
+      set_material(node, area_stiffness, tau);
+      compare(settings, report, "node", node, horizon, 1.0);
+    }
+  if (settings.smoke) return;
+  for (const int vertices : {30, 60, 120})
+    for (const double stiffening : {1.0, 100.0}) {
+      Packed refined = wounded_tissue(true, vertices);
+      refined.config.purse_string.stiffness *= stiffening;
+      compare(settings, report, stiffening > 1.0 ? "stiff ring" : "n_v ladder", refined, 0.25 * horizon, stiffening);
+    }
+}
+
+}  // namespace suture::benchmark
