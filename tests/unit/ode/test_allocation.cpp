@@ -11,17 +11,24 @@ namespace {
 
 std::atomic<long> allocations{0};
 
-void* counted(std::size_t size) {
+void* counted(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
-  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+  return std::malloc(size > 0 ? size : 1);
+}
+
+void* counted(std::size_t size) {
+  if (void* p = counted(size, std::nothrow)) return p;
   throw std::bad_alloc();
 }
 
 }  // namespace
 
-// Replaced for the whole executable: every new is counted, and none behaves differently.
+// Replaced for the whole executable: every new is counted, and none behaves differently. All forms without alignment, because
+// the address sanitizer has its own of those that are missing and refuses what these delete.
 void* operator new(std::size_t size) { return counted(size); }
 void* operator new[](std::size_t size) { return counted(size); }
+void* operator new(std::size_t size, const std::nothrow_t& tag) noexcept { return counted(size, tag); }
+void* operator new[](std::size_t size, const std::nothrow_t& tag) noexcept { return counted(size, tag); }
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
