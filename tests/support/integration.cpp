@@ -1,5 +1,6 @@
 #include "support/integration.hpp"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
@@ -90,12 +91,14 @@ std::vector<double> integrate(OdeSystem& system, const IntegratorOptions& option
 }
 
 double rms_difference(std::span<const double> a, std::span<const double> b) {
+  REQUIRE(a.size() == b.size());
   double sum = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) sum += (a[k] - b[k]) * (a[k] - b[k]);
   return std::sqrt(sum / static_cast<double>(a.size()));
 }
 
 double largest_difference(std::span<const double> a, std::span<const double> b) {
+  REQUIRE(a.size() == b.size());
   double worst = 0.0;
   for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, std::abs(a[k] - b[k]));
   return worst;

@@ -40,7 +40,10 @@ TEST_CASE("a short closure comes out the same with both linear solvers", "[unit]
   const ClosureResult &structured = results[0], &direct = results[1];
   const double l0 = wounded.tissue.mean_initial_rest_length();
   CHECK(structured.state.values != direct.state.values);  // two ways were taken
-  CHECK(largest_difference(structured.state.values, wounded.values) > 0.05 * l0);
+  // The string is new, so only the cell vertices can be compared with what it began with.
+  const auto vertices = static_cast<std::size_t>(wounded.tissue.vertex_count());
+  CHECK(largest_difference(structured.state.view().x.first(vertices), wounded.view().x.first(vertices)) > 0.05 * l0);
+  REQUIRE(structured.state.values.size() == direct.state.values.size());
   CHECK(rms_difference(structured.state.values, direct.state.values) < 10.0 * config.integrator.tolerance * l0);
   CHECK(direct.statistics.preconditioner_setups == direct.statistics.hessian_builds);
   CHECK(direct.statistics.linear_iterations < 1.1 * direct.statistics.newton_iterations);
