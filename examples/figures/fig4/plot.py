@@ -60,7 +60,7 @@ def beside_published(folder, case, time, area, shape, open_runs):
         known = ~np.isnan(values)
         difference = np.interp(t, time[known], values[known]) - wanted
         text.append(f"{column_name} mean abs. {np.abs(difference).mean():.3f}, largest {difference[np.abs(difference).argmax()]:+.3f}, last {difference[-1]:+.3f}")
-    return f"; from the published curves until {half:.0f} min: " + "; ".join(text)
+    return f"; from the published curves until {t[-1]:.0f} min: " + "; ".join(text)
 
 
 results, published, picture = arguments()
