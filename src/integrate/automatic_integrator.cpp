@@ -21,6 +21,7 @@ class AutomaticIntegrator final : public Integrator {
     judge();
     return current_->step(limit);
   }
+  bool stops_cheaply() const override { return current_->stops_cheaply(); }
   double time() const override { return current_->time(); }
   std::span<const double> state() const override { return current_->state(); }
   double last_step() const override { return current_->last_step(); }

@@ -1,6 +1,7 @@
 #include "integrate/explicit_integrator.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "integrate/failure_report.hpp"
 
@@ -33,15 +34,24 @@ void ExplicitIntegrator::accept(double h) {
 }
 
 /// One-step methods have no past to keep: only the state and its rate.
-void ExplicitIntegrator::resume(double t, std::span<const double> y, std::span<const int>) {
+void ExplicitIntegrator::resume(double t, std::span<const double> y, std::span<const int> source) {
+  const double s = last_step_ > 0.0 ? (t - (time_ - last_step_)) / last_step_ : 1.0;
+  std::vector<double>& before = y_next_;  // rate before the event, in the components after it
+  before.resize(y.size());
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    const std::size_t j = source.empty() ? k : static_cast<std::size_t>(source[k]);
+    before[k] = last_step_ > 0.0 ? (1.0 - s) * f_before_[j] + s * f_[j] : f_[j];
+  }
   if (y.size() != y_.size()) {
-    for (auto* v : {&f_, &y_before_, &f_before_, &y_next_, &f_next_}) v->resize(y.size());
+    for (auto* v : {&f_, &y_before_, &f_before_, &f_next_}) v->resize(y.size());
     resize(y.size());
   }
   time_ = t;
   last_step_ = 0.0;
   y_.assign(y.begin(), y.end());
   evaluate_or_fail(t, y_, f_);
+  for (std::size_t k = 0; k < y.size(); ++k) before[k] -= f_[k];
+  restarted(std::sqrt(square_sum(before)));
 }
 
 void ExplicitIntegrator::interpolate(double t, std::span<double> y) const {

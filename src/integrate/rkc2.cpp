@@ -5,6 +5,7 @@
 
 #include "integrate/explicit_integrator.hpp"
 #include "integrate/rivals.hpp"
+#include "integrate/step_control.hpp"
 
 namespace suture {
 
@@ -15,15 +16,18 @@ class Rkc2 final : public ExplicitIntegrator {
   Rkc2(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
       : ExplicitIntegrator(system, options, t, y, 2), direction_(f_), stage_a_(y.size()), stage_b_(y.size()), stage_f_(y.size()), errors_(y.size()) {
     h_ = options.initial_step;
+    control_.start(h_);
   }
 
   double step(double limit) override;
+  bool stops_cheaply() const override { return true; }
 
  private:
   void resize(std::size_t n) override {
     for (auto* v : {&direction_, &stage_a_, &stage_b_, &stage_f_, &errors_}) v->resize(n);
-    radius_ = 0.0;
   }
+  void restarted(double jump) override { h_ = control_.restart(jump); }
+  bool attempt(double h);
   void estimate_spectral_radius();
   double first_step();
   /// Fills y_next_; false when a stage was refused.
@@ -33,6 +37,7 @@ class Rkc2 final : public ExplicitIntegrator {
 
   std::vector<double> direction_, stage_a_, stage_b_, stage_f_, errors_;  // errors_: of the last completed attempt
   double h_ = 0.0, radius_ = 0.0;
+  StepControl control_;
   int steps_since_radius_ = 0;
 };
 
@@ -121,37 +126,37 @@ double Rkc2::error_norm(double h) {
   return norm(errors_);
 }
 
+/// Stages for a step h, and the rate at its end.
+bool Rkc2::attempt(double h) {
+  const int s = std::max(2, 1 + static_cast<int>(std::sqrt(1.54 * h * radius_ + 1.0)));
+  return stages(h, s) && evaluate(time_ + h, y_next_, f_next_) == Evaluation::ok;
+}
+
 double Rkc2::step(double limit) {
   if (!(limit > time_)) return time_;
   if (radius_ == 0.0 || steps_since_radius_ >= 25) estimate_spectral_radius();
-  if (h_ == 0.0) h_ = first_step();
+  if (h_ == 0.0) control_.start(h_ = first_step());
   bool refused = false;
-  for (int attempt = 0; attempt < 60; ++attempt) {
+  for (int tries = 0; tries < 60; ++tries) {
     double h = h_;
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     const bool last = time_ + h * 1.01 >= limit;
     if (last) h = limit - time_;
-    const int s = std::max(2, 1 + static_cast<int>(std::sqrt(1.54 * h * radius_ + 1.0)));
-    const bool good = stages(h, s) && evaluate(time_ + h, y_next_, f_next_) == Evaluation::ok;
-    refused = !good;
-    const double error = good ? error_norm(h) : 0.0;
-    if (good && error <= 1.0) {
-      const double factor = std::clamp(0.8 / std::cbrt(std::max(error, 1e-9)), 0.3, 5.0);
-      if (!last || factor < 1.0) h_ = h * factor;
+    if (!last && time_ + 2.0 * h > limit) h = 0.5 * (limit - time_);  // two equal steps rather than one and a remainder
+    refused = !attempt(h);
+    const double error = refused ? 0.0 : error_norm(h);
+    if (!refused && error <= 1.0) {
+      h_ = control_.next(h, error, h < h_);
       ++steps_since_radius_;
       accept(h);
       if (last) time_ = limit;
       return time_;
     }
-    if (good) {
-      ++counts_.error_test_failures;
-      h_ = h * std::clamp(0.8 / std::cbrt(error), 0.1, 0.8);
-    } else {
-      ++counts_.convergence_failures;
-      h_ = 0.25 * h;
-    }
-    if (steps_since_radius_ > 0) estimate_spectral_radius();
+    ++(refused ? counts_.convergence_failures : counts_.error_test_failures);
+    h_ = refused ? control_.retry_refused(h) : control_.retry(h, error);
     if (time_ + h_ == time_) break;
+    // One failure is likely to be what an event set off; two may be a radius that has grown.
+    if (steps_since_radius_ > 0 && tries > 0) estimate_spectral_radius();
   }
   fail(refused ? "the rate cannot be evaluated" : "the error test failed repeatedly", h_, errors_);
 }

@@ -18,17 +18,20 @@ int find_root(std::vector<int>& parent, int i) {
   return i;
 }
 
-/// Calls found(own_cell, other_cell, squared_distance) for membrane near each vertex; pairs repeat.
-template <typename Found>
-void visit_contacts(const Tissue& tissue, const StateView& state, double reach, Found&& found) {
+/// Calls found(vertex, other_cell, squared_distance) for membrane near each vertex, unless known(own_cell, other_cell);
+/// pairs repeat.
+template <typename Known, typename Found>
+void visit_contacts(const Tissue& tissue, const StateView& state, double reach, Known&& known, Found&& found) {
   SegmentGrid grid;
   grid.build(tissue, state, reach);
   for (int v = 0; v < tissue.vertex_count(); ++v) {
     const double x = state.x[v], y = state.y[v];
     const int own = tissue.cell_of(v);
     grid.visit_near({x, x, y, y}, reach, [&](int segment) {
+      const int other = grid[segment].cell;
+      if (other == own || known(own, other)) return false;
       const double d2 = grid[segment].squared_distance(x, y);
-      if (grid[segment].cell != own && d2 <= reach * reach) found(v, grid[segment].cell, d2);
+      if (d2 <= reach * reach) found(v, other, d2);
       return false;
     });
   }
@@ -86,9 +89,9 @@ ContactGraph contact_graph(const Tissue& tissue, const StateView& state, const M
   if (!(release_distance >= contact))
     throw InputError(fmt::format("release distance {} is below the contact distance {}", release_distance, contact));
   std::vector<CellPair> pairs;
-  visit_contacts(tissue, state, release_distance, [&](int vertex, int cell, double squared_distance) {
+  const auto last = [&](int a, int b) { return !pairs.empty() && pairs.back() == ordered(a, b); };
+  visit_contacts(tissue, state, release_distance, last, [&](int vertex, int cell, double squared_distance) {
     const CellPair pair = ordered(tissue.cell_of(vertex), cell);
-    if (!pairs.empty() && pairs.back() == pair) return;
     if (squared_distance <= contact * contact || previous.contains(pair.first, pair.second)) pairs.push_back(pair);
   });
   return {tissue.cell_count(), std::move(pairs)};
@@ -127,7 +130,8 @@ std::vector<Exchange> ExchangeCounter::update(const ContactGraph& graph) {
 int rosette_order(const Tissue& tissue, const StateView& state, double radius) {
   if (!(radius > 0.0)) throw InputError(fmt::format("rosette radius {} is not positive", radius));
   std::vector<CellPair> seen;  // (vertex, cell)
-  visit_contacts(tissue, state, radius, [&](int vertex, int cell, double) { seen.emplace_back(vertex, cell); });
+  const auto none = [](int, int) { return false; };
+  visit_contacts(tissue, state, radius, none, [&](int vertex, int cell, double) { seen.emplace_back(vertex, cell); });
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   int most = 0, here = 0;

@@ -69,6 +69,7 @@ StateView WoundNeighbourhood::gather(const StateView& state) {
 const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, const StateView& state) {
   const Tissue& watched = part(tissue);
   wound_ = tracker_.update(watched, gather(state));
+  scatter(tissue, tracker_.boundary().exposure().exposed);
   if (!wound_) return wound_;
   if (!cells_.empty())
     for (int& v : wound_->boundary) v = vertex_[v];
@@ -78,8 +79,11 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
 
 const std::vector<char>& WoundNeighbourhood::exposed(const Tissue& tissue, const StateView& state) {
   const Tissue& watched = part(tissue);
-  const std::vector<char>& found = exposure_(watched, gather(state)).exposed;
-  if (cells_.empty()) return found;
+  return scatter(tissue, exposure_(watched, gather(state)).exposed);
+}
+
+const std::vector<char>& WoundNeighbourhood::scatter(const Tissue& tissue, const std::vector<char>& found) {
+  if (cells_.empty()) return exposed_ = found;
   exposed_.assign(tissue.vertex_count(), 0);
   for (std::size_t k = 0; k < vertex_.size(); ++k) exposed_[vertex_[k]] = found[k];
   return exposed_;

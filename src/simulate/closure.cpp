@@ -208,7 +208,9 @@ void Closure::guard_progress(double event_time) {
 
 void Closure::step() {
   const std::optional<double> kink = next_kink_time(state_.purse_string, integrator_->time());
-  integrator_->step(std::min(end_, kink.value_or(end_)));
+  double limit = std::min(end_, kink.value_or(end_));
+  if (integrator_->stops_cheaply()) limit = std::min(limit, events_.next_known(integrator_->time()));
+  integrator_->step(limit);
   double until = integrator_->time();
   while (const std::optional<DueEvents> due = events_.find(*integrator_, state_, event_wound_)) {
     TissueState at_event = state_at(due->time);

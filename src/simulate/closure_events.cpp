@@ -117,6 +117,11 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
   return due;
 }
 
+double ClosureEvents::next_known(double t) {
+  if (!gauge_.on_grid(t)) return 1e300;
+  return grid_time(static_cast<long>(std::floor((t - start_) / interval_ + 1e-9)) + 1);
+}
+
 std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   if (state.purse_string.empty()) return std::nullopt;
   if (parameters_.capture_search == CaptureSearch::published) return after_step(integrator, state);
@@ -159,8 +164,8 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbo
 
 bool ClosureEvents::capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log) {
   if (parameters_.capture_search == CaptureSearch::published) return search_.capture(state, parameters_.capture_law, log);
-  seen_exposed_ = edge.exposed(state.tissue, state.view());
   const std::optional<Wound>& wound = edge.update(state.tissue, state.view());
+  seen_exposed_ = edge.exposed_at_update();
   if (!wound) return false;
   const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
   const std::vector<Capture> captured = captures(state, boundary);

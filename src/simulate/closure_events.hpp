@@ -48,6 +48,8 @@ class ClosureEvents {
 
   /// The first event in (integrator.time() - last_step(), time()], if any. `state` supplies tissue and ring.
   std::optional<DueEvents> find(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
+  /// The next time after t at which events are looked for, if it is known before the step; else infinity.
+  double next_known(double t);
   /// Applies them to `state` (whose time and values are those of the event); true if anything changed.
   bool apply(const DueEvents& due, TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
   long storms() const { return gauge_.storms(); }

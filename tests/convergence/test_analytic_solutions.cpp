@@ -73,7 +73,7 @@ TEST_CASE("eigenmodes of a regular polygon decay at the rates of the assembled H
       for (int k = 0; k < 20; ++k) state.values[k] += amplitude * modes.eigenvectors()(k, mode);
       for (const Method method : {Method::cvode, Method::rkc2, Method::rk4}) {
         TissueOde ode(state.tissue, 0, ode_options(config.contact, law), {});
-        IntegratorOptions options = with_tolerance(method, 1e-11);
+        IntegratorOptions options = with_tolerance(method, 3e-12);
         options.time_step = std::min(0.5 / modes.eigenvalues()[19], 0.02 / decay);
         const auto y = integrate(ode, options, 0.0, state.values, end);
         double projected = 0.0, rest_of_it = 0.0;

@@ -57,12 +57,16 @@ class AreaWatch final : public ClosureObserver {
   }
   /// Looking only at the cells around the wound gives the same wound, bit for bit.
   void compare_with_neighbourhood(const ClosureSample& s) {
+    const std::vector<int> cells = neighbourhood_.cells();
     const std::optional<Wound>& seen = neighbourhood_.update(s.state.tissue, s.state.view());
     CAPTURE(s.time);
     REQUIRE(seen.has_value());
     CHECK(seen->area == s.wound->area);
     CHECK(seen->boundary == s.wound->boundary);
     fewest_cells = std::min(fewest_cells, neighbourhood_.cells().size());
+    if (neighbourhood_.cells() != cells) return;  // chosen anew after the update
+    const std::vector<char> on_the_way = neighbourhood_.exposed_at_update();
+    CHECK(on_the_way == neighbourhood_.exposed(s.state.tissue, s.state.view()));
   }
   /// The area cannot change faster than its edge moves.
   void check_continuity(const ClosureSample& s, double area) {

@@ -50,6 +50,8 @@ class Integrator {
   /// Takes one internal step, at most to `limit`; returns the new time. state() is y there. A limit that is not later
   /// than time() leaves everything as it is.
   virtual double step(double limit) = 0;
+  /// Whether a stop at a time that is known beforehand costs no more than interpolating to it: no history to disturb.
+  virtual bool stops_cheaply() const { return false; }
   virtual double time() const = 0;
   virtual std::span<const double> state() const = 0;
   virtual double last_step() const = 0;

@@ -22,6 +22,8 @@ class WoundNeighbourhood {
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
   /// One flag per vertex of `tissue`, by probe_disc; zero for cells that are not looked at. Valid until the next call.
   const std::vector<char>& exposed(const Tissue& tissue, const StateView& state);
+  /// What exposed() would have given for the state of the last update(), which has found it on its way.
+  const std::vector<char>& exposed_at_update() const { return exposed_; }
   const std::optional<Wound>& wound() const { return wound_; }
   /// Cells that are looked at; empty: all.
   const std::vector<int>& cells() const { return cells_; }
@@ -42,6 +44,8 @@ class WoundNeighbourhood {
   /// The part of the tissue that is looked at, and its positions.
   const Tissue& part(const Tissue& tissue);
   StateView gather(const StateView& state);
+  /// From one flag per vertex of the part to one per vertex of the tissue, in exposed_.
+  const std::vector<char>& scatter(const Tissue& tissue, const std::vector<char>& found);
 
   double margin_;
   WoundTracker tracker_;
