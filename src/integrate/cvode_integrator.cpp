@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "integrate/cvode_history.hpp"
+#include "integrate/event_step.hpp"
 #include "integrate/failure_report.hpp"
 #include "integrate/fused_nvector.hpp"
 #include "integrate/minimising_newton.hpp"
@@ -46,6 +47,7 @@ class CvodeIntegrator final : public Integrator {
   void start_afresh();
   void make_nonlinear_solver();
   int solve_step(N_Vector correction, double tolerance);
+  void learn_from_step();
   static int rate(double t, N_Vector y, N_Vector out, void* self);
   static int weights(N_Vector y, N_Vector w, void* self);
   [[noreturn]] void fail(const char* what, int flag);
@@ -63,6 +65,8 @@ class CvodeIntegrator final : public Integrator {
   std::int64_t rates_ = 0;
   std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
   std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
+  EventStep event_step_{2.0};
+  double first_step_ = 0.0;  // at most, when an event has just been passed
   std::exception_ptr exception_;  // thrown inside a callback; exceptions must not cross C frames
 };
 
@@ -194,7 +198,8 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
 double CvodeIntegrator::step(double limit) {
   if (!(limit > time_)) return time_;
   const double before = time_;
-  if (limit <= before) return time_;
+  const bool first = first_step_ > 0.0;
+  if (first) limit = std::min(limit, before + std::exchange(first_step_, 0.0));
   check(CVodeSetMinStep(cvode_, time_resolution * std::abs(before)), "CVodeSetMinStep");
   // CVODE takes the scale of its first step from the time it is asked for, which must be finite.
   check(CVodeSetStopTime(cvode_, std::min(limit - offset_, latest_time)), "CVodeSetStopTime");
@@ -205,6 +210,7 @@ double CvodeIntegrator::step(double limit) {
   if (flag == CV_ERR_FAILURE) fail("the error test failed repeatedly", flag);
   if (flag < 0) fail("the integrator gave up", flag);
   last_step_ = time_ - before;
+  if (first) learn_from_step();
   if (!(last_step_ > 0.0)) fail("the step size fell below the resolution of time", flag);
   return time_;
 }
@@ -215,6 +221,12 @@ void CvodeIntegrator::fail(const char* what, int flag) {
   std::span<const double> errors = unconverged_;
   if (flag == CV_ERR_FAILURE && CVodeGetEstLocalErrors(cvode_, interpolated_) == CV_SUCCESS) errors = values(interpolated_);
   throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_) + fmt::format(" (CVODE {})", flag));
+}
+
+void CvodeIntegrator::learn_from_step() {
+  N_Vector weight = psi_;  // until the next solve
+  if (CVodeGetEstLocalErrors(cvode_, interpolated_) != CV_SUCCESS || CVodeGetErrWeights(cvode_, weight) != CV_SUCCESS) return;
+  event_step_.learn(last_step_, N_VWrmsNorm(interpolated_, weight));
 }
 
 int CvodeIntegrator::last_order() const {
@@ -242,10 +254,14 @@ void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<cons
   offset_ += t - time_;
   time_ = t;
   std::copy(y.begin(), y.end(), values(y_).begin());
-  if (keep)
+  if (keep) {
     history.set_value(y_);
-  else
+    ++rates_;
+    if (system_->rate(t, values(y_), values(interpolated_)) == Evaluation::ok)
+      first_step_ = event_step_.after(history.set_rate(interpolated_));
+  } else {
     start_afresh();
+  }
 }
 
 void CvodeIntegrator::start_afresh() {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integrate/event_step.hpp"
+
 namespace suture {
 
 class StepControl {
@@ -16,8 +18,7 @@ class StepControl {
     const double e = std::max(error, least_error);
     double factor = safety / std::cbrt(e);
     if (before_.h > 0.0) factor *= h / before_.h * std::cbrt(before_.error / e);
-    if (jump_ > 0.0) jump_error_ = std::max(e / (jump_ * h * h * h), forgetting * jump_error_);
-    jump_ = 0.0;
+    event_step_.learn(h, e);
     before_ = error > least_error ? Step{h, e} : Step{};
     step_ = cut && factor >= largest_growth ? std::max(step_, largest_growth * h) : h * std::clamp(factor, 0.3, largest_growth);
     return step_;
@@ -25,20 +26,15 @@ class StepControl {
   /// The next try after one whose error was above 1; a state that was refused asks for a quarter.
   double retry(double h, double error) { return abandon(h * std::clamp(0.8 / std::cbrt(error), 0.1, 0.8)); }
   double retry_refused(double h) { return abandon(0.25 * h); }
-  /// After an event that has changed the rate by `jump` (Euclidean norm): the error of the step that follows is
-  /// proportional to the jump and to h^3, with a coefficient learnt from the events before.
+  /// After an event that has changed the rate by `jump` (Euclidean norm).
   double restart(double jump) {
     before_ = {};
-    jump_ = jump;
-    if (jump_error_ * jump > 0.0) step_ = std::min(step_, std::cbrt(aim / (jump_error_ * jump)));
-    return step_;
+    return step_ = std::min(step_, event_step_.after(jump));
   }
   void start(double h) { step_ = h; }
 
  private:
   static constexpr double safety = 0.9, largest_growth = 5.0, least_error = 1e-9;
-  static constexpr double aim = 0.7;         // error of the first step after an event
-  static constexpr double forgetting = 0.7;  // of the coefficient, per event: it falls slowly and rises at once
 
   double abandon(double h) {
     before_ = {};
@@ -50,7 +46,7 @@ class StepControl {
   };
   double step_ = 0.0;
   Step before_;  // the last accepted one; none after an event or a failure
-  double jump_ = 0.0, jump_error_ = 0.0;
+  EventStep event_step_{3.0};
 };
 
 }  // namespace suture

@@ -36,13 +36,16 @@ class AreaWatch final : public ClosureObserver {
   }
   void event(const EventRecord& record) override {
     ++events[record.kind];
-    in_order = in_order && record.time >= last_event_ - 1e-9;
+    // The time of closing is interpolated between the last two samples, and other events may have come after it.
+    const double slack = record.kind == EventKind::closed ? sample_interval : 1e-9;
+    in_order = in_order && record.time >= last_event_ - slack;
     last_event_ = record.time;
   }
 
   WoundSeries series;
   std::map<EventKind, int> events;
   int flood_fills = 0, continuity_checks = 0;
+  double sample_interval = 0.0;
   bool finite = true, in_order = true;
   std::size_t fewest_cells = 1000;
 
@@ -106,6 +109,7 @@ TEST_CASE("an embryo wound closes, and its area is what a flood fill counts", "[
   const Preparation prepared = prepare_tissue(config);
   REQUIRE(prepared.acceptance.accepted);
   AreaWatch watch(make_membrane(config.contact, prepared.state.tissue));
+  watch.sample_interval = config.output.interval;
   TissueState last_good;
   const ClosureResult result = run_closure(config, prepared.state, watch, last_good);
   CHECK(result.status == ClosureStatus::closed);

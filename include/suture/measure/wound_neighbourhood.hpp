@@ -15,8 +15,8 @@ namespace suture {
 /// between two updates, and when the region has become twice as large as it need be. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
 class WoundNeighbourhood {
  public:
-  /// margin: model units of length; about the diameter of a cell.
-  explicit WoundNeighbourhood(const Membrane& membrane, double margin = 1.0);
+  /// margin: model units of length; half the diameter of a cell.
+  explicit WoundNeighbourhood(const Membrane& membrane, double margin = 0.5);
 
   /// As WoundTracker::update, vertices numbered as in `tissue`. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
