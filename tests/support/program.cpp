@@ -1,6 +1,7 @@
 #include "support/program.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -44,8 +45,9 @@ Outcome run_suture(const std::string& program, const std::vector<std::string>& a
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) become_program(program.c_str(), arguments, directory, output, errors);
   int status = 0;
-  if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(output), contents_of(errors)};
+  rusage used{};
+  if (wait4(child, &status, 0, &used) != child) throw std::runtime_error("wait4 failed");
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents_of(output), contents_of(errors), used.ru_maxrss};
 }
 
 RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments,

@@ -11,6 +11,7 @@ struct Outcome {
   int exit_code = -1;  ///< -1: did not exit by itself
   std::string output;  ///< stdout
   std::string errors;  ///< stderr
+  long peak_kB = 0;    ///< most memory it held at any time (resident)
 };
 
 /// Runs `program` (tests pass SUTURE_PROGRAM) with these arguments, without a shell, in `directory`.
