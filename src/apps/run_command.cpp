@@ -94,6 +94,8 @@ void add_run_command(CLI::App& program, CommandResult& result) {
   command->add_option("CONFIG", options->file, "configuration file (TOML)")->required();
   command->add_option("--out", options->directory, "folder for the results (created)")->capture_default_str();
   add_set_option(*command, options->overrides);
+  command->add_option_function<std::string>(
+      "--seed", [options](const std::string& seed) { options->overrides.push_back("tissue.seed=" + seed); }, "another tissue: --set tissue.seed=N");
   command->add_flag("--resume", options->resume, "continue a run that was stopped or killed; start it if there is none");
   command->add_flag("--overwrite", options->overwrite, "start again although DIR holds an unfinished run");
   command->add_option("--max-wall", options->max_wall, "stop in time, with a checkpoint: 90s, 30min, 2h, 1d or [D-]HH:MM:SS");

@@ -51,3 +51,16 @@ TEST_CASE("a closure from a saved stage is the closure of the whole run, with th
   REQUIRE(run(directory, "elastic", {"plasticity.tau=1e6", "run.start_from=prepared/run.h5"}).exit_code == 0);
   CHECK(summary_of(directory.path() / "elastic")["healed_shape"] != continued["healed_shape"]);
 }
+
+TEST_CASE("the option --seed is --set tissue.seed, and refused in the same words", "[cli]") {
+  const TemporaryDirectory directory;
+  const auto with = [&](const char* option, const char* seed, const char* out) {
+    return run_suture(SUTURE_PROGRAM, {"run", small, "--quiet", "--set", "run.last_stage=packing", option, seed, "--out", out}, directory.path());
+  };
+  CHECK(with("--seed", "7", "short").exit_code == 0);
+  CHECK(with("--set", "tissue.seed=7", "long").exit_code == 0);
+  CHECK(summary_of(directory.path() / "short")["seed"] == 7);
+  const Outcome bad = with("--seed", "seven", "bad"), as_long = with("--set", "tissue.seed=seven", "bad");
+  CHECK(bad.exit_code == 2);
+  CHECK(bad.errors == as_long.errors);
+}
