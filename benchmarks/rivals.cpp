@@ -76,8 +76,9 @@ void compare(const Settings& settings, Report& report, const std::string& name, 
 
 void measure_rivals(const Settings& settings, Report& report, const Packed& wounded) {
   const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 40.0 : 10.0;
-  for (const double area_stiffness : {1.0, 16.0, 40.0})
-    for (const double tau : {4.8, 76.8, 1228.8, 39321.6}) {
+  // The nodes of Fig. 3 whose values are published.
+  for (const double area_stiffness : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 40.0})
+    for (const double tau : {4.8, 9.6, 76.8, 1228.8, 9830.4, 39321.6}) {
       if (settings.smoke && (area_stiffness != 16.0 || tau != 76.8)) continue;
       Packed node = wounded;
       set_material(node, area_stiffness, tau);

@@ -89,6 +89,13 @@ def measure_drawing(browser, count=300):
     return frames, 1000.0 * (seconds() - before) / count
 
 
+def measure_playing(browser, seconds=3):
+    """Pictures per second while the page plays. Reported, not judged; the browser draws no more than 60."""
+    return browser.evaluate(f"""new Promise(done => {{ suture.time = 0; suture.play(); const drawn = suture.drawn, begin = performance.now();
+        setTimeout(() => {{ const rate = (suture.drawn - drawn) / (performance.now() - begin) * 1000;
+          suture.pause(); suture.time = 0; suture.dirty = true; done(rate); }}, {1000 * seconds}); }})""")
+
+
 def check_scrubbing(browser):
     box = browser.evaluate("(() => { const b = document.getElementById('timeline').getBoundingClientRect(); return [b.left, b.top, b.width]; })()")
     left, right = browser.evaluate("[suture.timeline.left, suture.timeline.right]")
@@ -143,15 +150,17 @@ def check_themes(browser):
 
 browser = Browser(program)
 try:
-    frames, cost = 0, 0.0
+    frames, cost, rate = 0, 0.0, 0.0
     for check in (check_loading, check_playing, check_scrubbing, check_clicking, check_fields, check_themes):
         check(browser)
         if check is check_playing:
             frames, cost = measure_drawing(browser)
+            rate = measure_playing(browser)
     for problem in browser.problems:
         expect(False, problem)
 finally:
     browser.close()
 print(f"page: {len(problems)} problems" if problems else
-      f"page: loads, plays, scrubs, clicks, colours, themes; {frames} frames, {cost:.1f} ms of processor time for a picture")
+      f"page: loads, plays, scrubs, clicks, colours, themes; {frames} frames, "
+      f"{rate:.0f} pictures a second while playing, {cost:.1f} ms of processor time for one")
 sys.exit(1 if problems else 0)
