@@ -73,6 +73,7 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
   if (!wound_) return wound_;
   if (!cells_.empty())
     for (int& v : wound_->boundary) v = vertex_[v];
+  if (cells_.empty()) tracker_.release_memory();  // of the whole tissue
   if (cells_.empty() || !region_fits()) choose_cells(tissue, state);
   return wound_;
 }

@@ -24,9 +24,7 @@ void CellPreconditioner::for_each_batch(WorkerPool& workers, const Task& task) {
 
 CellPreconditioner::CellPreconditioner(const Tissue& tissue, const PaddedTissue& padded, int ring_size,
                                        const kernels::Table& kernel)
-    : tissue_(&tissue), padded_(&padded), kernel_(&kernel), ring_size_(ring_size) {
-  make_batches();
-}
+    : tissue_(&tissue), padded_(&padded), kernel_(&kernel), ring_size_(ring_size) {}
 
 void CellPreconditioner::make_batches() {
   std::vector<int> order(tissue_->cell_count());
@@ -50,6 +48,10 @@ void CellPreconditioner::make_batches() {
 }
 
 void CellPreconditioner::set_ring_size(int ring_size) {
+  if (batches_.empty()) {
+    ring_size_ = ring_size;
+    return;
+  }
   if (ring_size_ > 0) {
     batches_.pop_back();
     buffers_.pop_back();
@@ -216,6 +218,7 @@ void CellPreconditioner::set_up_ring(Batch& batch, double gamma, std::span<const
 
 void CellPreconditioner::set_up(double gamma, const ContactFactors& contacts, std::span<const PointBlock> extra,
                                 WorkerPool& workers) {
+  if (batches_.empty()) make_batches();
   sum_diagonal(contacts, extra, workers);
   for_each_batch(workers, [&](Batch& batch, int range) {
     if (batch.lanes == 1)

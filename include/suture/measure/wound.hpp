@@ -60,6 +60,8 @@ class WoundTracker {
   WoundStatus status() const { return status_; }
   int splits() const { return splits_; }  ///< updates at which the wound had fallen into several parts
   const FreeBoundary& boundary() const { return boundary_; }
+  /// Gives back the memory of the last update(); boundary() is empty until the next.
+  void release_memory() { boundary_ = FreeBoundary(boundary_.membrane()); }
 
   /// What the next update() depends on, for checkpoints (byte_archive.hpp).
   template <class Archive>
