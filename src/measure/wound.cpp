@@ -48,12 +48,15 @@ bool covered_by_tissue(const FreeBoundary& boundary, const Wound& former) {
 }  // namespace
 
 std::optional<Wound> find_wound(const FreeBoundary& boundary, const Wound* previous) {
+  const auto holes = std::ranges::count_if(boundary.loops(), &BoundaryLoop::is_hole);
   const BoundaryLoop* chosen = nullptr;
   double most = 0.0, area_of_parts = 0.0;
   int parts = 0;
   for (const BoundaryLoop& loop : boundary.loops()) {
     if (!loop.is_hole()) continue;
-    const double merit = previous ? overlap_area(loop.outline, previous->outline) : -loop.signed_area;
+    double merit = -loop.signed_area;
+    // A single hole that begins inside the previous wound overlaps it, and how much does not matter.
+    if (previous && !(holes == 1 && contains(previous->outline, loop.outline.front()))) merit = overlap_area(loop.outline, previous->outline);
     if (!(merit > 0.0)) continue;
     if (previous || !chosen) {
       ++parts;
