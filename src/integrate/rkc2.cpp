@@ -155,8 +155,8 @@ double Rkc2::step(double limit) {
     ++(refused ? counts_.convergence_failures : counts_.error_test_failures);
     h_ = refused ? control_.retry_refused(h) : control_.retry(h, error);
     if (time_ + h_ == time_) break;
-    // One failure is likely to be what an event set off; two may be a radius that has grown.
-    if (steps_since_radius_ > 0 && tries > 0) estimate_spectral_radius();
+    // Behind an event one failure is likely to be what the event set off; others may be a radius that has grown.
+    if (steps_since_radius_ > 0 && (tries > 0 || last_step_ > 0.0)) estimate_spectral_radius();
   }
   fail(refused ? "the rate cannot be evaluated" : "the error test failed repeatedly", h_, errors_);
 }
