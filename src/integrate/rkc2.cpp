@@ -15,8 +15,7 @@ class Rkc2 final : public ExplicitIntegrator {
  public:
   Rkc2(OdeSystem& system, const IntegratorOptions& options, double t, std::span<const double> y)
       : ExplicitIntegrator(system, options, t, y, 2), direction_(f_), stage_a_(y.size()), stage_b_(y.size()), stage_f_(y.size()), errors_(y.size()) {
-    h_ = options.initial_step;
-    control_.start(h_);
+    control_.start(options.initial_step);
   }
 
   double step(double limit) override;
@@ -26,7 +25,7 @@ class Rkc2 final : public ExplicitIntegrator {
   void resize(std::size_t n) override {
     for (auto* v : {&direction_, &stage_a_, &stage_b_, &stage_f_, &errors_}) v->resize(n);
   }
-  void restarted(double jump) override { h_ = control_.restart(jump); }
+  void restarted(double jump) override { control_.restart(jump); }
   bool attempt(double h);
   void estimate_spectral_radius();
   double first_step();
@@ -36,7 +35,7 @@ class Rkc2 final : public ExplicitIntegrator {
   double norm(std::span<const double> v) const;
 
   std::vector<double> direction_, stage_a_, stage_b_, stage_f_, errors_;  // errors_: of the last completed attempt
-  double h_ = 0.0, radius_ = 0.0;
+  double radius_ = 0.0;
   StepControl control_;
   int steps_since_radius_ = 0;
 };
@@ -135,10 +134,10 @@ bool Rkc2::attempt(double h) {
 double Rkc2::step(double limit) {
   if (!(limit > time_)) return time_;
   if (radius_ == 0.0 || steps_since_radius_ >= 25) estimate_spectral_radius();
-  if (h_ == 0.0) control_.start(h_ = first_step());
+  if (control_.step() == 0.0) control_.start(first_step());
   bool refused = false;
   for (int tries = 0; tries < 60; ++tries) {
-    double h = h_;
+    double h = control_.step();
     if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
     const bool last = time_ + h * 1.01 >= limit;
     if (last) h = limit - time_;
@@ -146,19 +145,19 @@ double Rkc2::step(double limit) {
     refused = !attempt(h);
     const double error = refused ? 0.0 : error_norm(h);
     if (!refused && error <= 1.0) {
-      h_ = control_.next(h, error, h < h_);
+      control_.next(h, error, h < control_.step());
       ++steps_since_radius_;
       accept(h);
       if (last) time_ = limit;
       return time_;
     }
     ++(refused ? counts_.convergence_failures : counts_.error_test_failures);
-    h_ = refused ? control_.retry_refused(h) : control_.retry(h, error);
-    if (time_ + h_ == time_) break;
+    const double next = refused ? control_.retry_refused(h) : control_.retry(h, error);
+    if (time_ + next == time_) break;
     // Behind an event one failure is likely to be what the event set off; others may be a radius that has grown.
     if (steps_since_radius_ > 0 && (tries > 0 || last_step_ > 0.0)) estimate_spectral_radius();
   }
-  fail(refused ? "the rate cannot be evaluated" : "the error test failed repeatedly", h_, errors_);
+  fail(refused ? "the rate cannot be evaluated" : "the error test failed repeatedly", control_.step(), errors_);
 }
 
 }  // namespace

@@ -32,6 +32,8 @@ class StepControl {
     return step_ = std::min(step_, event_step_.after(jump));
   }
   void start(double h) { step_ = h; }
+  /// What was asked for last.
+  double step() const { return step_; }
 
  private:
   static constexpr double safety = 0.9, largest_growth = 5.0, least_error = 1e-9;
