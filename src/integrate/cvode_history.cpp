@@ -38,9 +38,9 @@ void CvodeHistory::shift(double shift) {
     for (std::size_t j = zn_.size() - 1; j > k; --j) N_VLinearSum(1.0, zn_[j - 1], s, zn_[j], zn_[j - 1]);
 }
 
-double CvodeHistory::set_rate(N_Vector f) {
+double CvodeHistory::set_rate(N_Vector f, N_Vector weights) {
   N_VLinearSum(1.0, f, -1.0 / h_, zn_[1], zn_[1]);
-  const double jump = std::sqrt(N_VDotProd(zn_[1], zn_[1]));
+  const double jump = N_VWrmsNorm(zn_[1], weights);
   N_VScale(h_, f, zn_[1]);
   return jump;
 }

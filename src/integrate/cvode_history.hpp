@@ -23,8 +23,8 @@ class CvodeHistory {
   void shift(double shift);
   /// zn[0] = y; the derivatives stay.
   void set_value(N_Vector y) { N_VScale(1.0, y, zn_[0]); }
-  /// zn[1] = h f, the rate behind the event; returns the Euclidean norm of the change of the rate.
-  double set_rate(N_Vector f);
+  /// zn[1] = h f, the rate behind the event; returns the weighted norm of the change of the rate.
+  double set_rate(N_Vector f, N_Vector weights);
 
  private:
   void* cvode_;

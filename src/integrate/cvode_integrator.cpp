@@ -47,6 +47,7 @@ class CvodeIntegrator final : public Integrator {
   void start_afresh();
   void make_nonlinear_solver();
   int solve_step(N_Vector correction, double tolerance);
+  double after_event(CvodeHistory& history);
   void learn_from_step();
   static int rate(double t, N_Vector y, N_Vector out, void* self);
   static int weights(N_Vector y, N_Vector w, void* self);
@@ -223,6 +224,13 @@ void CvodeIntegrator::fail(const char* what, int flag) {
   throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_) + fmt::format(" (CVODE {})", flag));
 }
 
+double CvodeIntegrator::after_event(CvodeHistory& history) {
+  double planned = 0.0;
+  weights(y_, psi_, this);  // psi_ is free until the next solve
+  CVodeGetCurrentStep(cvode_, &planned);
+  return event_step_.after(history.set_rate(interpolated_, psi_), planned);
+}
+
 void CvodeIntegrator::learn_from_step() {
   N_Vector weight = psi_;  // until the next solve
   if (CVodeGetEstLocalErrors(cvode_, interpolated_) != CV_SUCCESS || CVodeGetErrWeights(cvode_, weight) != CV_SUCCESS) return;
@@ -258,7 +266,7 @@ void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<cons
     history.set_value(y_);
     ++rates_;
     if (system_->rate(t, values(y_), values(interpolated_)) == Evaluation::ok)
-      first_step_ = event_step_.after(history.set_rate(interpolated_));
+      first_step_ = after_event(history);
   } else {
     start_afresh();
   }

@@ -13,10 +13,11 @@ class EventStep {
  public:
   explicit EventStep(double power) : power_(power) {}
 
-  /// The longest step advisable after an event that has changed the rate by `jump` (Euclidean norm); infinity while
-  /// nothing is known.
-  double after(double jump) {
-    jump_ = jump;
+  /// The longest step advisable after an event that has changed the rate by `jump` (relative to the tolerance, root mean
+  /// square) when a step of h is planned; infinity while nothing is known, and when the jump cannot move anything in h.
+  double after(double jump, double h) {
+    jump_ = jump * h > negligible ? jump : 0.0;
+    if (jump_ == 0.0) return std::numeric_limits<double>::infinity();
     if (!(coefficient_ * jump > 0.0)) return std::numeric_limits<double>::infinity();
     return std::pow(aim / (coefficient_ * jump), 1.0 / power_);
   }
@@ -28,6 +29,7 @@ class EventStep {
 
  private:
   static constexpr double aim = 0.7;         // error of the first step
+  static constexpr double negligible = 0.1;  // of the tolerance
   static constexpr double forgetting = 0.7;  // per event: the coefficient rises at once and falls slowly
   double power_, jump_ = 0.0, coefficient_ = 0.0;
 };

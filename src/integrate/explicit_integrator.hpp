@@ -31,8 +31,8 @@ class ExplicitIntegrator : public Integrator {
   void accept(double h);
   /// For methods with vectors of their own: the system has this many components from now on.
   virtual void resize(std::size_t) {}
-  /// After an event that changed the rate by `jump` (Euclidean norm).
-  virtual void restarted(double /*jump*/) {}
+  /// After an event that changed the rate by this.
+  virtual void restarted(std::span<const double> /*jump*/) {}
   [[noreturn]] void fail(const std::string& what, double h, std::span<const double> errors) const;
 
   /// out[k] = value(k) for every component. Numbers are captured by value: then the loop can keep them in registers.

@@ -25,7 +25,7 @@ class Rkc2 final : public ExplicitIntegrator {
   void resize(std::size_t n) override {
     for (auto* v : {&direction_, &stage_a_, &stage_b_, &stage_f_, &errors_}) v->resize(n);
   }
-  void restarted(double jump) override { control_.restart(jump); }
+  void restarted(std::span<const double> jump) override { control_.restart(norm(jump)); }
   bool attempt(double h);
   void estimate_spectral_radius();
   double first_step();

@@ -26,10 +26,10 @@ class StepControl {
   /// The next try after one whose error was above 1; a state that was refused asks for a quarter.
   double retry(double h, double error) { return abandon(h * std::clamp(0.8 / std::cbrt(error), 0.1, 0.8)); }
   double retry_refused(double h) { return abandon(0.25 * h); }
-  /// After an event that has changed the rate by `jump` (Euclidean norm).
+  /// After an event that has changed the rate by `jump` (relative to the tolerance, root mean square).
   double restart(double jump) {
     before_ = {};
-    return step_ = std::min(step_, event_step_.after(jump));
+    return step_ = std::min(step_, event_step_.after(jump, step_));
   }
   void start(double h) { step_ = h; }
   /// What was asked for last.

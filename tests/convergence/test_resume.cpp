@@ -46,7 +46,7 @@ TEST_CASE("an event that changes nothing changes nothing", "[convergence]") {
   }
 }
 
-TEST_CASE("kept history costs no steps, a fresh start does; renumbered components keep theirs", "[convergence]") {
+TEST_CASE("kept history costs no steps, a fresh start does, renumbered components keep theirs", "[convergence]") {
   const TissueState state =
       wavy_cell(10, {.area_stiffness = 4.0, .membrane_stiffness = 1.0, .bending_stiffness = 0.02, .tau = 0.5, .memory = 0.2});
   const double end = 2.0;

@@ -101,7 +101,7 @@ TEST_CASE("a run that is stopped as soon as it starts can be resumed until it is
   CHECK(read_bytes(directory.path() / "whole/wound.csv").size() > 1000);
 }
 
-TEST_CASE("a damaged checkpoint gives way to the previous one; without any, what was computed is not thrown away", "[cli][resume]") {
+TEST_CASE("a damaged checkpoint gives way to the previous one, and without any, what was computed is not thrown away", "[cli][resume]") {
   const TemporaryDirectory directory;
   const std::vector<std::string> keys{"--set", "checkpoint.interval=1", "--set", "run.end_time=5"};
   REQUIRE(run_suture(SUTURE_PROGRAM, quick("whole", keys), directory.path()).exit_code == 0);

@@ -50,8 +50,10 @@ TEST_CASE("the first step after an event is as long as its jump allows", "[unit]
     CHECK(error(jump, h) == Approx(0.7));
     control.next(h, error(jump, h), false);
   }
-  control.start(1e-3);
-  CHECK(control.restart(2.0) == 1e-3);  // what was short stays short
+  control.start(0.06);
+  CHECK(control.restart(2.0) == 0.06);  // what was short stays short
+  control.start(1.0);
+  CHECK(control.restart(0.09) == 1.0);  // what cannot move anything shortens nothing
 }
 
 TEST_CASE("a step that was cut does not shorten those that follow", "[unit]") {

@@ -62,7 +62,7 @@ TEST_CASE("a list varies its keys together, a case brings its own base and setti
   CHECK(plan.runs[2].config.plasticity.memory == 0.5);
 }
 
-TEST_CASE("a case may have seeds of its own; the command line has the last word", "[sweep]") {
+TEST_CASE("a case may have seeds of its own, the command line has the last word", "[sweep]") {
   const std::string text = R"(
     seeds = "1-2"
     [[case]]
@@ -94,7 +94,7 @@ TEST_CASE("derived keys follow the swept ones", "[sweep]") {
   CHECK(plan.runs[1].config.tissue.seed == 9);
 }
 
-TEST_CASE("the same configuration has the same key, whatever sweep it is part of; another one has another", "[sweep]") {
+TEST_CASE("the same configuration has the same key, whatever sweep it is part of, and another one has another", "[sweep]") {
   const SweepPlan wide = plan_of("seeds = \"1-3\"\n[grid]\narea.stiffness = [1, 2]\n");
   const SweepPlan narrow = plan_of("seeds = [3]\n[set]\narea.stiffness = 2\n");
   CHECK(narrow.runs[0].key == wide.runs[5].key);
