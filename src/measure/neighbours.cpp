@@ -18,23 +18,20 @@ int find_root(std::vector<int>& parent, int i) {
   return i;
 }
 
-/// Calls found(vertex, other_cell, squared_distance) for membrane near each vertex, unless known(own_cell, other_cell);
-/// pairs repeat.
-template <typename Known, typename Found>
-void visit_contacts(const Tissue& tissue, const StateView& state, double reach, Known&& known, Found&& found) {
-  SegmentGrid grid;
-  grid.build(tissue, state, reach);
-  for (int v = 0; v < tissue.vertex_count(); ++v) {
-    const double x = state.x[v], y = state.y[v];
-    const int own = tissue.cell_of(v);
-    grid.visit_near({x, x, y, y}, reach, [&](int segment) {
-      const int other = grid[segment].cell;
-      if (other == own || known(own, other)) return false;
-      const double d2 = grid[segment].squared_distance(x, y);
-      if (d2 <= reach * reach) found(v, other, d2);
-      return false;
-    });
+bool near_box(const BoundingBox& box, double x, double y, double reach) {
+  return x >= box.x_low - reach && x <= box.x_high + reach && y >= box.y_low - reach && y <= box.y_high + reach;
+}
+
+/// Whether a vertex of `own` is within reach of the membrane of `other`.
+bool vertex_meets(const Tissue& tissue, const SegmentGrid& grid, int own, int other, double reach) {
+  const BoundingBox& box = grid.box(other);
+  for (int v = tissue.first_vertex(own); v < tissue.end_vertex(own); ++v) {
+    const double x = grid[v].ax, y = grid[v].ay;
+    if (!near_box(box, x, y, reach)) continue;
+    for (int s = tissue.first_vertex(other); s < tissue.end_vertex(other); ++s)
+      if (grid[s].squared_distance(x, y) <= reach * reach) return true;
   }
+  return false;
 }
 
 }  // namespace
@@ -88,11 +85,12 @@ ContactGraph contact_graph(const Tissue& tissue, const StateView& state, const M
   const double contact = membrane.interaction_distance();
   if (!(release_distance >= contact))
     throw InputError(fmt::format("release distance {} is below the contact distance {}", release_distance, contact));
+  SegmentGrid grid;
+  grid.build_unsorted(tissue, state);
   std::vector<CellPair> pairs;
-  const auto last = [&](int a, int b) { return !pairs.empty() && pairs.back() == ordered(a, b); };
-  visit_contacts(tissue, state, release_distance, last, [&](int vertex, int cell, double squared_distance) {
-    const CellPair pair = ordered(tissue.cell_of(vertex), cell);
-    if (squared_distance <= contact * contact || previous.contains(pair.first, pair.second)) pairs.push_back(pair);
+  grid.visit_box_pairs(release_distance, [&](int a, int b) {
+    const double reach = previous.contains(a, b) ? release_distance : contact;
+    if (vertex_meets(tissue, grid, a, b, reach) || vertex_meets(tissue, grid, b, a, reach)) pairs.emplace_back(a, b);
   });
   return {tissue.cell_count(), std::move(pairs)};
 }
@@ -129,9 +127,17 @@ std::vector<Exchange> ExchangeCounter::update(const ContactGraph& graph) {
 
 int rosette_order(const Tissue& tissue, const StateView& state, double radius) {
   if (!(radius > 0.0)) throw InputError(fmt::format("rosette radius {} is not positive", radius));
+  SegmentGrid grid;
+  grid.build(tissue, state, radius);
   std::vector<CellPair> seen;  // (vertex, cell)
-  const auto none = [](int, int) { return false; };
-  visit_contacts(tissue, state, radius, none, [&](int vertex, int cell, double) { seen.emplace_back(vertex, cell); });
+  for (int v = 0; v < tissue.vertex_count(); ++v) {
+    const double x = state.x[v], y = state.y[v];
+    grid.visit_near({x, x, y, y}, radius, [&](int segment) {
+      const int other = grid[segment].cell;
+      if (other != tissue.cell_of(v) && grid[segment].squared_distance(x, y) <= radius * radius) seen.emplace_back(v, other);
+      return false;
+    });
+  }
   std::sort(seen.begin(), seen.end());
   seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   int most = 0, here = 0;

@@ -65,9 +65,13 @@ void SegmentGrid::choose_buckets(double bucket_size) {
   rows_ = static_cast<int>(height * inverse_bucket_) + 1;
 }
 
-void SegmentGrid::build(const Tissue& tissue, const StateView& state, double bucket_size) {
+void SegmentGrid::build_unsorted(const Tissue& tissue, const StateView& state) {
   measure_segments(tissue, state);
   sort_boxes();
+}
+
+void SegmentGrid::build(const Tissue& tissue, const StateView& state, double bucket_size) {
+  build_unsorted(tissue, state);
   choose_buckets(bucket_size);
   start_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
   entry_segment_.clear();

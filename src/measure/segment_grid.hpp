@@ -30,6 +30,8 @@ class SegmentGrid {
   /// Keeps its memory between calls. Throws NumericalError for a coordinate that is not finite or a segment without
   /// length.
   void build(const Tissue& tissue, const StateView& state, double bucket_size);
+  /// Segments and boxes without buckets: everything but visit_near.
+  void build_unsorted(const Tissue& tissue, const StateView& state);
 
   const MembraneSegment& operator[](int segment) const { return segments_[segment]; }
   const BoundingBox& box(int cell) const { return boxes_[cell]; }
@@ -47,6 +49,18 @@ class SegmentGrid {
       if (x <= box.x_high && y >= box.y_low && y <= box.y_high && visit(*c)) return true;
     }
     return false;
+  }
+
+  /// Calls visit(cell, other) once for every two cells whose boxes come within `reach` of each other in both directions.
+  template <typename Visit>
+  void visit_box_pairs(double reach, Visit&& visit) const {
+    for (std::size_t i = 0; i < by_left_.size(); ++i) {
+      const BoundingBox& a = boxes_[by_left_[i]];
+      for (std::size_t j = i + 1; j < by_left_.size() && boxes_[by_left_[j]].x_low <= a.x_high + reach; ++j) {
+        const BoundingBox& b = boxes_[by_left_[j]];
+        if (b.y_low <= a.y_high + reach && a.y_low <= b.y_high + reach) visit(by_left_[i], by_left_[j]);
+      }
+    }
   }
 
   /// Calls visit(segment) for every segment that may come within `reach` of the box, some of them twice; stops and

@@ -19,30 +19,28 @@ constexpr double infinity = 1e300;
 WoundNeighbourhood::WoundNeighbourhood(const Membrane& membrane, double margin)
     : margin_(margin), tracker_(membrane), exposure_(membrane) {}
 
-void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state) {
-  region_ = around_outline(margin_);
+void WoundNeighbourhood::look_at_all() {
   cells_.clear();
   part_.reset();
+}
+
+void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state, const Region& region) {
+  chosen_.clear();
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
     Region box{infinity, -infinity, infinity, -infinity};
     for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) include(box, state.x[v], state.y[v]);
-    if (box.x_low <= region_.x_high && box.x_high >= region_.x_low && box.y_low <= region_.y_high && box.y_high >= region_.y_low)
-      cells_.push_back(cell);
+    if (box.x_low <= region.x_high && box.x_high >= region.x_low && box.y_low <= region.y_high && box.y_high >= region.y_low)
+      chosen_.push_back(cell);
   }
+  if (chosen_ == cells_) return;
+  cells_.swap(chosen_);
+  part_.reset();
 }
 
-WoundNeighbourhood::Region WoundNeighbourhood::around_outline(double distance) const {
+WoundNeighbourhood::Region WoundNeighbourhood::around(const Wound& wound, double distance) {
   Region box{infinity, -infinity, infinity, -infinity};
-  for (const Point& p : wound_->outline) include(box, p.x, p.y);
+  for (const Point& p : wound.outline) include(box, p.x, p.y);
   return {box.x_low - distance, box.x_high + distance, box.y_low - distance, box.y_high + distance};
-}
-
-/// Too small once the outline is within half a margin of its edge, too large when it is twice what is needed.
-bool WoundNeighbourhood::region_fits() const {
-  const Region least = around_outline(0.5 * margin_), wanted = around_outline(margin_);
-  const auto size = [](const Region& r) { return (r.x_high - r.x_low) * (r.y_high - r.y_low); };
-  return least.x_low > region_.x_low && least.x_high < region_.x_high && least.y_low > region_.y_low && least.y_high < region_.y_high &&
-         size(region_) < 2.0 * size(wanted);
 }
 
 const Tissue& WoundNeighbourhood::part(const Tissue& tissue) {
@@ -66,15 +64,33 @@ StateView WoundNeighbourhood::gather(const StateView& state) {
   return view;
 }
 
-const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, const StateView& state) {
+void WoundNeighbourhood::look(const Tissue& tissue, const StateView& state) {
   const Tissue& watched = part(tissue);
   wound_ = tracker_.update(watched, gather(state));
   scatter(tissue, tracker_.boundary().exposure().exposed);
-  if (!wound_) return wound_;
-  if (!cells_.empty())
+  if (wound_ && !cells_.empty())
     for (int& v : wound_->boundary) v = vertex_[v];
   if (cells_.empty()) tracker_.release_memory();  // of the whole tissue
-  if (cells_.empty() || !region_fits()) choose_cells(tissue, state);
+}
+
+const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, const StateView& state) {
+  const std::optional<Wound> former = std::move(wound_);
+  Region region{};
+  if (former) {
+    region = around(*former, margin_);
+    choose_cells(tissue, state, region);
+  } else {
+    look_at_all();
+  }
+  look(tissue, state);
+  if (!former) return wound_;
+  if (wound_) {
+    const Region least = around(*wound_, 0.5 * margin_);
+    if (least.x_low > region.x_low && least.x_high < region.x_high && least.y_low > region.y_low && least.y_high < region.y_high) return wound_;
+  }
+  look_at_all();
+  tracker_.follow(*former);
+  look(tissue, state);
   return wound_;
 }
 

@@ -48,8 +48,7 @@ class Closure {
   TissueState& state_;  // at the last restart or, after each step, at the integrator's time
   Membrane membrane_;
   double start_, end_;
-  WoundTracker sampled_wound_;
-  WoundNeighbourhood event_wound_;
+  WoundNeighbourhood sampled_wound_, event_wound_;
   ClosureEvents events_;
   std::unique_ptr<TissueOde> ode_;
   std::unique_ptr<Integrator> integrator_;

@@ -56,6 +56,9 @@ class WoundTracker {
   /// Measures this configuration and makes it the previous one. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
 
+  /// Makes this the previous configuration's wound.
+  void follow(Wound wound) { wound_ = std::move(wound), status_ = WoundStatus::open; }
+
   const std::optional<Wound>& wound() const { return wound_; }
   WoundStatus status() const { return status_; }
   int splits() const { return splits_; }  ///< updates at which the wound had fallen into several parts

@@ -10,13 +10,13 @@
 
 namespace suture {
 
-/// Only cells whose bounding box comes within `margin` of the box of the wound's outline are looked at. They are chosen
-/// anew when the outline has come within half a margin of the edge of that region, so a wound may move by half a margin
-/// between two updates, and when the region has become twice as large as it need be. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
+/// Only cells whose bounding box comes within `margin` of the box of the last wound's outline are looked at. When the wound
+/// is not found there, or its outline has come within half a margin of the edge of that region, the whole tissue is:
+/// a wound may move any distance between two updates. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
 class WoundNeighbourhood {
  public:
-  /// margin: model units of length; half the diameter of a cell.
-  explicit WoundNeighbourhood(const Membrane& membrane, double margin = 0.5);
+  /// margin: model units of length; by default a third of the diameter of a cell.
+  explicit WoundNeighbourhood(const Membrane& membrane, double margin = 0.4);
 
   /// As WoundTracker::update, vertices numbered as in `tissue`. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
@@ -25,12 +25,13 @@ class WoundNeighbourhood {
   /// What exposed() would have given for the state of the last update(), which has found it on its way.
   const std::vector<char>& exposed_at_update() const { return exposed_; }
   const std::optional<Wound>& wound() const { return wound_; }
-  /// Cells that are looked at; empty: all.
+  WoundStatus status() const { return tracker_.status(); }
+  /// Cells that were looked at; empty: all.
   const std::vector<int>& cells() const { return cells_; }
   /// For checkpoints (byte_archive.hpp); what is made when it is needed is made again.
   template <class Archive>
   void fields(Archive& archive) {
-    archive(tracker_, cells_, region_.x_low, region_.x_high, region_.y_low, region_.y_high, wound_);
+    archive(tracker_, cells_, wound_);
     if constexpr (Archive::reading) part_.reset();
   }
 
@@ -38,9 +39,10 @@ class WoundNeighbourhood {
   struct Region {
     double x_low, x_high, y_low, y_high;
   };
-  void choose_cells(const Tissue& tissue, const StateView& state);
-  Region around_outline(double distance) const;
-  bool region_fits() const;
+  void choose_cells(const Tissue& tissue, const StateView& state, const Region& region);
+  void look_at_all();
+  void look(const Tissue& tissue, const StateView& state);
+  static Region around(const Wound& wound, double distance);
   /// The part of the tissue that is looked at, and its positions.
   const Tissue& part(const Tissue& tissue);
   StateView gather(const StateView& state);
@@ -50,11 +52,10 @@ class WoundNeighbourhood {
   double margin_;
   WoundTracker tracker_;
   ExposureMeasure exposure_;
-  std::vector<int> cells_;      // that are looked at; empty: all
+  std::vector<int> cells_, chosen_;  // that are looked at, empty: all; the next ones
   std::optional<Tissue> part_;  // made of them when it is needed
   std::vector<int> vertex_;     // of the tissue, one per vertex of part_
   std::vector<double> x_, y_;
-  Region region_{};
   std::optional<Wound> wound_;
   std::vector<char> exposed_;
 };
