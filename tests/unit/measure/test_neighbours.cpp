@@ -1,15 +1,19 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "support/wound_tissues.hpp"
 #include "suture/errors.hpp"
+#include "suture/geometry/point_segment.hpp"
 #include "suture/measure/neighbours.hpp"
 
 using namespace suture;
 using namespace suture::test;
 
 namespace {
+
+Point point_at(const StateView& view, int v) { return {view.x[v], view.y[v]}; }
 
 /// Four discs of radius 1: 0 and 1 left and right of the origin, 2 and 3 above and below; every pair of neighbours on
 /// the rim touches; `shift` > 0 brings 0 and 1 together, < 0 brings 2 and 3 together.
@@ -87,6 +91,37 @@ TEST_CASE("contacts lost to the wound or gained across it are no exchanges", "[u
   const ContactGraph ring(4, {{0, 1}, {1, 2}, {2, 3}, {0, 3}});
   CHECK(neighbour_exchanges(ring, ContactGraph(4, {{0, 1}, {1, 2}, {2, 3}})).empty());
   CHECK(neighbour_exchanges(ring, ContactGraph(4, {{0, 1}, {1, 2}, {2, 3}, {0, 3}, {0, 2}})).empty());
+}
+
+TEST_CASE("contacts are those of every vertex against every segment", "[unit]") {
+  const Membrane m = default_membrane();
+  const double release = 1.5 * m.interaction_distance();
+  ContactGraph held;
+  std::size_t fewest = 1000, most = 0;
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    TissueState state = tissue_of(honeycomb({.rings = 3, .gap = 0.12 + 0.02 * seed}));
+    shake(state, 0.02, seed);
+    const auto brute_force = [&](const ContactGraph& previous) {
+      std::vector<CellPair> pairs;
+      for (int v = 0; v < state.tissue.vertex_count(); ++v)
+        for (int a = 0; a < state.tissue.vertex_count(); ++a) {
+          const int own = state.tissue.cell_of(v), other = state.tissue.cell_of(a);
+          if (own == other) continue;
+          const double reach = previous.contains(own, other) ? release : m.interaction_distance();
+          const int b = state.tissue.next(a);
+          if (point_segment_distance(point_at(state.view(), v), point_at(state.view(), a), point_at(state.view(), b)) <= reach)
+            pairs.emplace_back(own, other);
+        }
+      return ContactGraph(state.tissue.cell_count(), pairs);
+    };
+    const ContactGraph plain = contact_graph(state.tissue, state.view(), m);
+    CHECK(std::ranges::equal(plain.pairs(), brute_force({}).pairs()));
+    const ContactGraph expected = brute_force(held);
+    held = contact_graph(state.tissue, state.view(), m, held, release);
+    CHECK(std::ranges::equal(held.pairs(), expected.pairs()));
+    fewest = std::min(fewest, plain.pairs().size()), most = std::max(most, held.pairs().size());
+  }
+  CHECK(fewest + 10 < most);
 }
 
 TEST_CASE("connected components of a contact graph", "[unit]") {

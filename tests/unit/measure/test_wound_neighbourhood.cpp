@@ -1,0 +1,96 @@
+// The wound from the cells around it against the wound from the whole tissue.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "support/wound_tissues.hpp"
+#include "suture/measure/wound_neighbourhood.hpp"
+
+using namespace suture;
+using namespace suture::test;
+
+namespace {
+
+/// Both followers see the same states and must agree, bit for bit.
+struct Followers {
+  WoundNeighbourhood part{default_membrane()};
+  WoundTracker whole{default_membrane()};
+
+  void see(const TissueState& state) {
+    const auto& a = part.update(state.tissue, state.view());
+    const auto& b = whole.update(state.tissue, state.view());
+    REQUIRE(a.has_value() == b.has_value());
+    CHECK(part.status() == whole.status());
+    if (!a) return;
+    CHECK(a->area == b->area);
+    CHECK(a->perimeter == b->perimeter);
+    CHECK(a->boundary == b->boundary);
+    CHECK(part.exposed_at_update() == part.exposed(state.tissue, state.view()));
+  }
+};
+
+void move_cell(TissueState& state, int cell, double dx, double dy) {
+  const StateLayout layout = state.layout();
+  for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v)
+    state.values[layout.x(v)] += dx, state.values[layout.y(v)] += dy;
+}
+
+}  // namespace
+
+TEST_CASE("a wound that moves is followed from the cells around it", "[unit]") {
+  TissueState state = tissue_of(honeycomb({.rings = 5, .removed = [](Point p) { return std::hypot(p.x, p.y) < 1.2; }}));
+  Followers followers;
+  followers.see(state);
+  CHECK(followers.part.cells().empty());
+  for (const double step : {0.01, 0.05, 0.1}) {
+    move(state, 0.0, step, -0.5 * step);
+    followers.see(state);
+    CHECK(followers.part.cells().size() > 6);
+    CHECK(followers.part.cells().size() < 40);
+  }
+  move(state, 0.3, 0.3, 0.2);  // too far for the region that was looked at
+  followers.see(state);
+  CHECK(followers.part.cells().empty());
+  shake(state, 0.01, 3);
+  followers.see(state);
+  CHECK_FALSE(followers.part.cells().empty());
+}
+
+TEST_CASE("a cell that jumps into the wound from afar is seen", "[unit]") {
+  TissueState state = tissue_of(honeycomb({.rings = 5, .removed = [](Point p) { return std::hypot(p.x, p.y) < 1.2; }}));
+  Followers followers;
+  followers.see(state);
+  followers.see(state);
+  const StateView view = state.view();
+  int far = 0;
+  for (int c = 0; c < state.tissue.cell_count(); ++c)
+    if (view.x[state.tissue.first_vertex(c)] > view.x[state.tissue.first_vertex(far)]) far = c;
+  CHECK(std::find(followers.part.cells().begin(), followers.part.cells().end(), far) == followers.part.cells().end());
+  const double area = followers.part.wound()->area;
+  move_cell(state, far, -view.x[state.tissue.first_vertex(far)], -view.y[state.tissue.first_vertex(far)]);
+  followers.see(state);
+  CHECK(followers.part.wound()->area < area - 0.5);
+}
+
+TEST_CASE("the whole tissue decides whether a lost wound has closed or opened to the outside", "[unit]") {
+  const TissueState ring =
+      tissue_of(sector_ring({.cells = 8, .inner = [](double) { return 0.6; }, .outer = [](double) { return 1.6; }}));
+  Followers closing;
+  TissueState state = ring;
+  for (int step = 0; step < 7; ++step) {
+    closing.see(state);
+    for (int cell = 0; cell < 8; ++cell) {  // all inwards
+      const int v = state.tissue.first_vertex(cell);
+      const double x = ring.view().x[v], y = ring.view().y[v], r = std::hypot(x, y);
+      move_cell(state, cell, -0.1 * x / r, -0.1 * y / r);
+    }
+  }
+  CHECK(closing.part.status() == WoundStatus::closed);
+  Followers opening;
+  state = ring;
+  opening.see(state);
+  opening.see(state);
+  move_cell(state, 3, 20.0, 0.0);
+  opening.see(state);
+  CHECK(opening.part.status() == WoundStatus::open_to_outside);
+}
