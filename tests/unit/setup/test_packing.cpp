@@ -112,9 +112,10 @@ TEST_CASE("Packings that make no sense are refused in words", "[unit]") {
   CHECK_THROWS_WITH(make_packing(config), Catch::Contains("packing.maximum_iterations"));
   CHECK_THROWS_AS(make_packing(config), NumericalError);
   config = small_config();
-  config.packing.area_stiffness = 0.01;
+  config.packing.area_stiffness = 0.001;  // at 0.01 one tissue of eight is squeezed flat instead, to a third of its area
   config.packing.final_fraction = 1.0;
-  CHECK_THROWS_WITH(make_packing(config), Catch::Contains("packing.final_fraction"));
+  for (config.tissue.seed = 1; config.tissue.seed <= 3; ++config.tissue.seed)
+    CHECK_THROWS_WITH(make_packing(config), Catch::Contains("packing.final_fraction"));
 }
 
 TEST_CASE("Progress of a packing runs from 0 to 1", "[unit]") {
