@@ -182,7 +182,8 @@ TEST_CASE("located and gridded events agree while events are rare", "[validation
     TissueState last_good;
     run_closure(config, prepared.state, watch, last_good);
     area[handling] = watch.series.area.back();
+    CAPTURE(watch.series.area.front(), area[handling]);
+    CHECK(area[handling] < 0.995 * watch.series.area.front());  // the string has pulled: 1 to 4 % in different tissues
   }
-  CHECK(area[EventHandling::located] < 0.99 * 5.7);
   CHECK(area[EventHandling::located] == Approx(area[EventHandling::grid]).epsilon(0.01));
 }
