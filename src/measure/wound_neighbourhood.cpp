@@ -6,13 +6,14 @@ namespace suture {
 
 namespace {
 
-template <class Region>
-void include(Region& box, double x, double y) {
-  box.x_low = std::min(box.x_low, x), box.x_high = std::max(box.x_high, x);
-  box.y_low = std::min(box.y_low, y), box.y_high = std::max(box.y_high, y);
+BoundingBox around(const Wound& wound, double distance) {
+  const BoundingBox box = bounding_box(wound.outline);
+  return {box.x_low - distance, box.x_high + distance, box.y_low - distance, box.y_high + distance};
 }
 
-constexpr double infinity = 1e300;
+bool lies_inside(const BoundingBox& box, const BoundingBox& region) {
+  return box.x_low > region.x_low && box.x_high < region.x_high && box.y_low > region.y_low && box.y_high < region.y_high;
+}
 
 }  // namespace
 
@@ -24,23 +25,17 @@ void WoundNeighbourhood::look_at_all() {
   part_.reset();
 }
 
-void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state, const Region& region) {
+void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state, const BoundingBox& region) {
   chosen_.clear();
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
-    Region box{infinity, -infinity, infinity, -infinity};
-    for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v) include(box, state.x[v], state.y[v]);
-    if (box.x_low <= region.x_high && box.x_high >= region.x_low && box.y_low <= region.y_high && box.y_high >= region.y_low)
-      chosen_.push_back(cell);
+    const int first = tissue.first_vertex(cell), count = tissue.vertex_count(cell);
+    const auto [left, right] = std::ranges::minmax(state.x.subspan(first, count));
+    const auto [bottom, top] = std::ranges::minmax(state.y.subspan(first, count));
+    if (left <= region.x_high && right >= region.x_low && bottom <= region.y_high && top >= region.y_low) chosen_.push_back(cell);
   }
   if (chosen_ == cells_) return;
   cells_.swap(chosen_);
   part_.reset();
-}
-
-WoundNeighbourhood::Region WoundNeighbourhood::around(const Wound& wound, double distance) {
-  Region box{infinity, -infinity, infinity, -infinity};
-  for (const Point& p : wound.outline) include(box, p.x, p.y);
-  return {box.x_low - distance, box.x_high + distance, box.y_low - distance, box.y_high + distance};
 }
 
 const Tissue& WoundNeighbourhood::part(const Tissue& tissue) {
@@ -75,7 +70,7 @@ void WoundNeighbourhood::look(const Tissue& tissue, const StateView& state) {
 
 const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, const StateView& state) {
   const std::optional<Wound> former = std::move(wound_);
-  Region region{};
+  BoundingBox region{};
   if (former) {
     region = around(*former, margin_);
     choose_cells(tissue, state, region);
@@ -84,10 +79,7 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
   }
   look(tissue, state);
   if (!former) return wound_;
-  if (wound_) {
-    const Region least = around(*wound_, 0.5 * margin_);
-    if (least.x_low > region.x_low && least.x_high < region.x_high && least.y_low > region.y_low && least.y_high < region.y_high) return wound_;
-  }
+  if (wound_ && lies_inside(around(*wound_, 0.5 * margin_), region)) return wound_;
   look_at_all();
   tracker_.follow(*former);
   look(tissue, state);

@@ -36,13 +36,9 @@ class WoundNeighbourhood {
   }
 
  private:
-  struct Region {
-    double x_low, x_high, y_low, y_high;
-  };
-  void choose_cells(const Tissue& tissue, const StateView& state, const Region& region);
+  void choose_cells(const Tissue& tissue, const StateView& state, const BoundingBox& region);
   void look_at_all();
   void look(const Tissue& tissue, const StateView& state);
-  static Region around(const Wound& wound, double distance);
   /// The part of the tissue that is looked at, and its positions.
   const Tissue& part(const Tissue& tissue);
   StateView gather(const StateView& state);

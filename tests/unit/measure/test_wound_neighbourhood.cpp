@@ -29,6 +29,11 @@ struct Followers {
   }
 };
 
+/// 84 cells around a wound of seven.
+TissueState wide_honeycomb() {
+  return tissue_of(honeycomb({.rings = 5, .removed = [](Point p) { return std::hypot(p.x, p.y) < 1.2; }}));
+}
+
 void move_cell(TissueState& state, int cell, double dx, double dy) {
   const StateLayout layout = state.layout();
   for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v)
@@ -38,7 +43,7 @@ void move_cell(TissueState& state, int cell, double dx, double dy) {
 }  // namespace
 
 TEST_CASE("a wound that moves is followed from the cells around it", "[unit]") {
-  TissueState state = tissue_of(honeycomb({.rings = 5, .removed = [](Point p) { return std::hypot(p.x, p.y) < 1.2; }}));
+  TissueState state = wide_honeycomb();
   Followers followers;
   followers.see(state);
   CHECK(followers.part.cells().empty());
@@ -57,7 +62,7 @@ TEST_CASE("a wound that moves is followed from the cells around it", "[unit]") {
 }
 
 TEST_CASE("a cell that jumps into the wound from afar is seen", "[unit]") {
-  TissueState state = tissue_of(honeycomb({.rings = 5, .removed = [](Point p) { return std::hypot(p.x, p.y) < 1.2; }}));
+  TissueState state = wide_honeycomb();
   Followers followers;
   followers.see(state);
   followers.see(state);
