@@ -7,18 +7,16 @@
 
 namespace suture {
 
-namespace {
-
-// Cells per tile: a few microseconds of work, and enough tiles of each colour for many threads.
-constexpr double tile_cells = 48.0;
-
-}  // namespace
-
 void ContactList::build(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers) {
   find_boxes(shell, workers);
   fill_buckets();
-  make_tiles();
-  workers.for_each(colours_.tiles(), [&](int k) { fill_tile(tiles_[k], shell, kernel); });
+  schedule_.divide(shell.cells, cells_per_block_);
+  lists_.resize(schedule_.lists());
+  scratch_.resize(schedule_.parts());
+  workers.for_each(schedule_.parts(), [&](int part) { fill_part(part, shell, kernel); });
+  schedule_.arrange([this](int s, int t) {
+    return !lists_[schedule_.list_between(s, t)].windows.empty() || !lists_[schedule_.list_between(t, s)].windows.empty();
+  });
   active_bands_ = 0;
   age(0.0, workers);
 }
@@ -27,16 +25,16 @@ void ContactList::age(double moved, WorkerPool& workers) {
   const int wanted = skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
   if (wanted <= active_bands_) return;
   active_bands_ = wanted;
-  workers.for_each(colours_.tiles(), [&](int k) { activate(tiles_[k]); });
+  workers.for_each(schedule_.lists(), [&](int k) { activate(lists_[k]); });
 }
 
 /// The kernel works on active windows two by two. They come from eight places of the list in turn: neighbouring vertices push
 /// on the same segments, and a load that overlaps a store just made has to wait for it.
-void ContactList::activate(Tile& tile) const {
-  const std::vector<kernels::Window>& all = tile.windows;
-  tile.active.clear();
+void ContactList::activate(Entries& entries) const {
+  const std::vector<kernels::Window>& all = entries.windows;
+  entries.active.clear();
   const auto take = [&](std::size_t k) {
-    if (all[k].band < active_bands_) tile.active.push_back(all[k]);
+    if (all[k].band < active_bands_) entries.active.push_back(all[k]);
   };
   const std::size_t share = all.size() / 8;
   for (std::size_t k = 0; k < share; ++k)
@@ -87,70 +85,58 @@ void ContactList::fill_buckets() {
   for (int c = 0; c < n; ++c) bucket_cells_[cursor_[bucket_of_[c]]++] = c;
 }
 
-/// Squares of buckets, numbered by colour.
-void ContactList::make_tiles() {
-  const auto n = static_cast<int>(boxes_.size());
-  const int edge = tiled_ ? std::max(1, static_cast<int>(std::lround(std::sqrt(tile_cells * nx_ * ny_ / n)))) : std::max(nx_, ny_);
-  const int columns = (nx_ + edge - 1) / edge, rows = (ny_ + edge - 1) / edge;
-  tile_at_.resize(rows * columns);
-  int tiles = 0;
-  for (int colour = 0; colour < TileColours::count; ++colour) {
-    colours_.start[colour] = tiles;
-    for (int j = colour / 3; j < rows; j += 3)
-      for (int i = colour % 3; i < columns; i += 3) tile_at_[i + columns * j] = tiles++;
-  }
-  colours_.start[TileColours::count] = tiles;
-  tiles_.resize(std::max<std::size_t>(tiles_.size(), tiles));
-  for (Tile& tile : tiles_) tile.cells.clear();
-  for (int c = 0; c < n; ++c) tiles_[tile_at_[bucket_of_[c] % nx_ / edge + columns * (bucket_of_[c] / nx_ / edge)]].cells.push_back(c);
-}
-
-void ContactList::fill_tile(Tile& tile, const kernels::Shell& shell, const kernels::Table& kernel) const {
-  tile.windows.clear();
-  tile.self_pairs.clear();
-  for (const int c : tile.cells) {
-    find_neighbors(tile, c);
-    for (int slot = shell.base[c] + 1; slot <= shell.base[c] + shell.count[c]; ++slot) add_windows(tile, shell, kernel, slot);
-    if (self_reach_ > 0.0) add_self_pairs(tile, shell, c);
-  }
+void ContactList::fill_part(int part, const kernels::Shell& shell, const kernels::Table& kernel) {
+  Scratch& scratch = scratch_[part];
+  const auto clear = [](Entries& entries) { entries.windows.clear(), entries.self_pairs.clear(); };
+  const Range blocks = schedule_.blocks_of(part);
+  for (std::size_t block = blocks.begin; block < blocks.end; ++block) clear(lists_[block]);
+  for (int other = 0; other < schedule_.parts(); ++other) clear(lists_[schedule_.list_between(part, other)]);
+  for (std::size_t block = blocks.begin; block < blocks.end; ++block)
+    for (std::size_t k = schedule_.cells_of(static_cast<int>(block)).begin; k < schedule_.cells_of(static_cast<int>(block)).end; ++k) {
+      const auto c = static_cast<int>(k);
+      find_neighbors(c, scratch.neighbors);
+      for (int slot = shell.base[c] + 1; slot <= shell.base[c] + shell.count[c]; ++slot) add_windows(scratch, shell, kernel, slot);
+      if (self_reach_ > 0.0) add_self_pairs(lists_[block], shell, c);
+    }
 }
 
 /// Cells whose boxes come within reach + skin, ascending.
-void ContactList::find_neighbors(Tile& tile, int cell) const {
+void ContactList::find_neighbors(int cell, std::vector<Neighbor>& neighbors) const {
   const double margin = reach_ + skin_;
   const Box& a = boxes_[cell];
   const int bx = bucket_of_[cell] % nx_, by = bucket_of_[cell] / nx_;
-  tile.neighbors.clear();
+  neighbors.clear();
   for (int j = std::max(by - 1, 0); j <= std::min(by + 1, ny_ - 1); ++j)
     for (int i = std::max(bx - 1, 0); i <= std::min(bx + 1, nx_ - 1); ++i)
       for (int k = bucket_start_[i + nx_ * j]; k < bucket_start_[i + nx_ * j + 1]; ++k) {
         const int other = bucket_cells_[k];
         const Box& b = boxes_[other];
         if (other != cell && b.x0 < a.x1 + margin && b.x1 > a.x0 - margin && b.y0 < a.y1 + margin && b.y1 > a.y0 - margin)
-          tile.neighbors.push_back(other);
+          neighbors.push_back({other, schedule_.list_of(cell, other)});
       }
-  std::sort(tile.neighbors.begin(), tile.neighbors.end());
+  std::sort(neighbors.begin(), neighbors.end(), [](const Neighbor& one, const Neighbor& two) { return one.cell < two.cell; });
 }
 
-void ContactList::add_windows(Tile& tile, const kernels::Shell& shell, const kernels::Table& kernel, int slot) const {
+void ContactList::add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int slot) {
   const double margin = reach_ + skin_, px = shell.x[slot], py = shell.y[slot];
-  for (const int other : tile.neighbors) {
+  for (const auto& [other, list] : scratch.neighbors) {
     const Box& b = boxes_[other];
     if (px < b.x0 - margin || px > b.x1 + margin || py < b.y0 - margin || py > b.y1 + margin) continue;
-    tile.words.resize(std::max<std::size_t>(tile.words.size(), (shell.count[other] + 63) / 64));
-    tile.distance2.resize(std::max<std::size_t>(tile.distance2.size(), (shell.count[other] + 7) / 8 * 8));
-    kernel.near_segments(shell, other, px, py, margin * margin, tile.words.data(), tile.distance2.data());
-    cut_windows(tile, slot, shell.base[other] + 1, shell.count[other]);
+    const int n = shell.count[other];
+    scratch.words.resize(std::max<std::size_t>(scratch.words.size(), (n + 63) / 64));
+    scratch.distance2.resize(std::max<std::size_t>(scratch.distance2.size(), (n + 7) / 8 * 8));
+    kernel.near_segments(shell, other, px, py, margin * margin, scratch.words.data(), scratch.distance2.data());
+    cut_windows(scratch, slot, shell.base[other] + 1, n, lists_[list].windows);
   }
 }
 
 /// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the end
 /// is taken up at its beginning, so that it is not cut there.
-void ContactList::cut_windows(Tile& tile, int slot, int first_slot, int n) const {
-  std::vector<int>& near = tile.near;
+void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n, std::vector<kernels::Window>& windows) const {
+  std::vector<int>& near = scratch.near;
   near.clear();
   for (int w = 0; 64 * w < n; ++w)
-    for (unsigned long long word = tile.words[w]; word != 0; word &= word - 1) near.push_back(64 * w + __builtin_ctzll(word));
+    for (unsigned long long word = scratch.words[w]; word != 0; word &= word - 1) near.push_back(64 * w + __builtin_ctzll(word));
   const int count = static_cast<int>(near.size());
   if (count == 0) return;
   int lead = 0;  // where the run over the end begins in near
@@ -160,25 +146,25 @@ void ContactList::cut_windows(Tile& tile, int slot, int first_slot, int n) const
   for (int k = 0; k < count;) {
     const int first = ordered(k);
     int length = 1;
-    double distance2 = tile.distance2[first];
+    double distance2 = scratch.distance2[first];
     for (++k; k < count; ++k) {
       const int next = ordered(k), ahead = next >= first ? next - first : next + n - first;
       if (ahead >= kernels::window_segments) break;
       length = ahead + 1;
-      distance2 = std::min(distance2, tile.distance2[next]);
+      distance2 = std::min(distance2, scratch.distance2[next]);
     }
-    tile.windows.push_back({slot, first_slot + first, static_cast<std::int16_t>(length), static_cast<std::int16_t>(band_of(distance2))});
+    windows.push_back({slot, first_slot + first, static_cast<std::int16_t>(length), static_cast<std::int16_t>(band_of(distance2))});
   }
 }
 
-void ContactList::add_self_pairs(Tile& tile, const kernels::Shell& shell, int cell) const {
+void ContactList::add_self_pairs(Entries& entries, const kernels::Shell& shell, int cell) const {
   const int b = shell.base[cell] + 1, n = shell.count[cell];
   const double reach = self_reach_ + skin_;
   for (int i = 0; i < n; ++i)
     for (int j = i + 2; j < n; ++j) {
       if (i == 0 && j == n - 1) continue;
       const double dx = shell.x[b + i] - shell.x[b + j], dy = shell.y[b + i] - shell.y[b + j];
-      if (dx * dx + dy * dy < reach * reach) tile.self_pairs.push_back({b + i, b + j});
+      if (dx * dx + dy * dy < reach * reach) entries.self_pairs.push_back({b + i, b + j});
     }
 }
 

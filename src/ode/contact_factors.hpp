@@ -1,4 +1,4 @@
-// The contact energy's second derivatives at one linearisation: the live terms of every tile of the contact list.
+// The contact energy's second derivatives at one linearisation: the live terms of every list of contacts.
 #pragma once
 
 #include <span>
@@ -18,29 +18,29 @@ class ContactFactors {
   /// (ox, oy) += H_contact (vx, vy) in the padded arrays of `hessian`.
   void add_product(const kernels::ShellHessian& hessian, const kernels::Table& kernel, WorkerPool& workers) const;
 
-  /// task(span of factors), for tiles that touch no common cell at once; in a fixed order for every cell.
+  /// task(span of factors), for lists that touch no common cell at once; in a fixed order for every cell.
   template <class Task>
-  void for_each_tile(WorkerPool& workers, const Task& task) const {
-    colours_.for_each_tile(workers, [&](int k) { task(std::span(tiles_[k].factors.data(), tiles_[k].live)); });
+  void for_each_list(WorkerPool& workers, const Task& task) const {
+    schedule_.for_each_list(workers, [&](int k) { task(std::span(lists_[k].factors.data(), lists_[k].live)); });
   }
 
   /// visit(factor), one after the other.
   template <class Visit>
   void for_each(const Visit& visit) const {
-    for (const Tile& tile : tiles_)
-      for (std::size_t k = 0; k < tile.live; ++k) visit(tile.factors[k]);
+    for (const Live& list : lists_)
+      for (std::size_t k = 0; k < list.live; ++k) visit(list.factors[k]);
   }
 
  private:
-  struct Tile {
+  struct Live {
     std::vector<kernels::ContactFactor> factors;  // the first `live` are in use
     std::size_t live = 0;
     void make_room(std::size_t more) {
       if (factors.size() < live + more) factors.resize(live + more);
     }
   };
-  std::vector<Tile> tiles_;
-  TileColours colours_;  // of the list at the linearisation: it may have been rebuilt since
+  std::vector<Live> lists_;
+  ContactSchedule schedule_;  // of the list at the linearisation: it may have been rebuilt since
 };
 
 }  // namespace suture

@@ -41,7 +41,7 @@ TissueGradient::TissueGradient(const Tissue& tissue_in, int ring, TissueOdeOptio
       workers(divided(tissue) ? options.threads : 1),
       padded(tissue, options.membrane_law, divided(tissue) ? cells_per_block : 0),
       contact(contact_scalars(options.contact)),
-      list(std::sqrt(contact.cutoff2), std::sqrt(contact.self2), options.skin, divided(tissue)),
+      list(std::sqrt(contact.cutoff2), std::sqrt(contact.self2), options.skin, divided(tissue) ? cells_per_block : 0),
       built_x_(tissue.vertex_count()),
       built_y_(tissue.vertex_count()),
       moved2_(padded.blocks()) {}
@@ -59,34 +59,43 @@ Range TissueGradient::points_of(int block) const {
   return {vertices.begin, block + 1 < padded.blocks() ? vertices.end : static_cast<std::size_t>(layout.points())};
 }
 
-/// Everything that needs no other block; then a new list when somebody has moved too far.
-bool TissueGradient::shells_and_list(const StateView& state) {
-  std::atomic<bool> unhealthy = false;
-  workers.for_each(padded.blocks(), [&](int block) {
-    const Range vertices = padded.vertices_of(block);
-    const double *x = state.x.data() + vertices.begin, *y = state.y.data() + vertices.begin;
-    const kernels::ShellInput input{x, y, held_ != nullptr ? held_ + vertices.begin : nullptr};
-    if (!kernel.shell_gradient(padded.shell_of(block), input)) unhealthy = true;
-    moved2_[block] = kernel.largest_move2(vertices.end - vertices.begin, x, y, &built_x_[vertices.begin], &built_y_[vertices.begin]);
-  });
-  if (unhealthy) {
-    explain_unhealthy();
-    return false;
-  }
-  const double moved = std::sqrt(*std::max_element(moved2_.begin(), moved2_.end()));
-  if (rebuilds == 0 || 2.0 * moved > options.skin)
-    rebuild(state);
-  else
-    list.age(moved, workers);
-  return true;
+bool TissueGradient::add_shell(const StateView& state, int block) {
+  const std::size_t first = padded.vertices_of(block).begin;
+  return kernel.shell_gradient(padded.shell_of(block), {state.x.data() + first, state.y.data() + first, held_ != nullptr ? held_ + first : nullptr});
 }
 
-void TissueGradient::add_contacts() {
-  list.colours().for_each_tile(workers, [&](int k) {
-    const ContactList::Tile& tile = list.tile(k);
-    kernel.contact_gradient(padded.shell, contact, tile.active.data(), tile.active.size(), tile.self_pairs.data(),
-                            tile.self_pairs.size());
+/// How far somebody is from where the list was built.
+double TissueGradient::largest_move(const StateView& state) {
+  workers.for_each(padded.blocks(), [&](int block) {
+    const auto [begin, end] = padded.vertices_of(block);
+    moved2_[block] = kernel.largest_move2(end - begin, &state.x[begin], &state.y[begin], &built_x_[begin], &built_y_[begin]);
   });
+  return std::sqrt(*std::max_element(moved2_.begin(), moved2_.end()));
+}
+
+/// Shells and contacts. A block's shells are made just before its contacts, unless a new list needs all of them first.
+bool TissueGradient::add_cells(const StateView& state) {
+  const double moved = largest_move(state);
+  const bool worn = rebuilds == 0 || !(2.0 * moved <= options.skin);
+  std::atomic<bool> unhealthy = false;
+  const auto shell = [&](int block) {
+    if (!add_shell(state, block)) unhealthy = true;
+  };
+  if (worn) {
+    workers.for_each(padded.blocks(), shell);
+    if (!unhealthy) rebuild(state);
+  } else {
+    list.age(moved, workers);
+  }
+  if (!unhealthy)
+    list.schedule().for_each_list(workers, [&](int k) {
+      if (!worn && k < padded.blocks()) shell(k);
+      const ContactList::Entries& entries = list.entries(k);
+      kernel.contact_gradient(padded.shell, contact, entries.active.data(), entries.active.size(), entries.self_pairs.data(),
+                              entries.self_pairs.size());
+    });
+  if (unhealthy) explain_unhealthy();
+  return !unhealthy;
 }
 
 void TissueGradient::pack(std::span<double> gx, std::span<double> gy, int block) {

@@ -1,5 +1,5 @@
 // dU/dr of everything the cells feel, with the padded arrays and the contact list it needs. A large tissue is worked on in
-// blocks of consecutive cells and tiles in space, which several threads share.
+// blocks of consecutive cells, which several threads share (contact_schedule.hpp).
 #pragma once
 
 #include <atomic>
@@ -30,8 +30,7 @@ class TissueGradient {
   /// blocks at once, as soon as the entries of points_of(block) are final; it returns whether they are finite.
   template <class Finish>
   Evaluation evaluate(double t, const StateView& state, std::span<double> gx, std::span<double> gy, const Finish& finish) {
-    if (!shells_and_list(state)) return Evaluation::refused;
-    add_contacts();
+    if (!add_cells(state)) return Evaluation::refused;
     std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
     std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
     const bool at_once = extra.empty();  // a block is finished while it is in the cache
@@ -67,8 +66,9 @@ class TissueGradient {
   std::string refusal;
 
  private:
-  bool shells_and_list(const StateView& state);
-  void add_contacts();
+  bool add_cells(const StateView& state);
+  bool add_shell(const StateView& state, int block);
+  double largest_move(const StateView& state);
   void pack(std::span<double> gx, std::span<double> gy, int block);
   void add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
   void explain_unhealthy();

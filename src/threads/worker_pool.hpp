@@ -1,5 +1,5 @@
 // Threads that share the work of one large tissue. What is divided is divided the same way for every number of threads
-// (ranges.hpp, the tiles of the contact list); threads only decide who works on which part, so results have the same bits.
+// (ranges.hpp, contact_schedule.hpp); threads only decide who works on which part, so results have the same bits.
 #pragma once
 
 #include <atomic>

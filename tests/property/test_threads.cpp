@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
-#include <map>
+#include <set>
 
 #include "neighbors/contact_list.hpp"
 #include "ode/padded_tissue.hpp"
@@ -99,8 +99,9 @@ TEST_CASE("a divided tissue has the forces of an undivided one", "[property][thr
   load(padded, state);
   ContactList list(1.3 * contact_distance, contact_distance, skin);
   list.build(padded.shell, kernels::best());
-  REQUIRE(list.colours().tiles() == 1);
-  const ContactList::Tile& all = list.tile(0);
+  REQUIRE(list.schedule().blocks() == 1);
+  REQUIRE(list.schedule().pairs().empty());
+  const ContactList::Entries& all = list.entries(0);
   const double e = 0.5, s = contact_distance, l1 = 0.1, l2 = 0.3, outer = 2.0 * e * l1 / (l2 - l1);
   const kernels::ContactScalars contact{s * s * (1 + l2) * (1 + l2), s * s * (1 + l1) * (1 + l1), -2 * e / s, 2 * e / (s * s),
                                         outer * (1 + l2) / s, -outer / (s * s), s * s};
@@ -112,34 +113,56 @@ TEST_CASE("a divided tissue has the forces of an undivided one", "[property][thr
   CHECK(largest(whole) > 1.0);
 }
 
-TEST_CASE("tiles hold the whole contact list, and those of one colour touch no common cell", "[property][threads]") {
+TEST_CASE("divided lists hold the whole contact list, each what it may touch", "[property][threads]") {
   const TissueState state = large_tissue();
   PaddedTissue padded(state.tissue, SpringLaw::quadratic);
   load(padded, state);
-  ContactList whole(1.3 * contact_distance, contact_distance, skin), tiled(1.3 * contact_distance, contact_distance, skin, true);
+  constexpr int cells_per_block = 20;
+  ContactList whole(1.3 * contact_distance, contact_distance, skin), divided(1.3 * contact_distance, contact_distance, skin, cells_per_block);
   whole.build(padded.shell, kernels::best());
-  tiled.build(padded.shell, kernels::best());
-  REQUIRE(tiled.colours().tiles() > 20);
+  divided.build(padded.shell, kernels::best());
+  const ContactSchedule& schedule = divided.schedule();
+  REQUIRE(schedule.blocks() == (state.tissue.cell_count() + cells_per_block - 1) / cells_per_block);
+  REQUIRE(schedule.parts() >= 8);
+  const auto block_of = [&](int slot) { return state.tissue.cell_of(padded.vertex(slot)) / cells_per_block; };
+  const auto part_of = [&](int block) {
+    int part = 0;
+    while (schedule.blocks_of(part).end <= static_cast<std::size_t>(block)) ++part;
+    return part;
+  };
   const auto key = [](const kernels::Window& w) { return std::array<int, 4>{w.p, w.q, w.segments, w.band}; };
   std::vector<std::array<int, 4>> expected, found;
-  for (const kernels::Window& w : whole.tile(0).windows) expected.push_back(key(w));
-  std::size_t pairs = 0;
-  int shared = 0;
-  for (int colour = 0; colour < TileColours::count; ++colour) {
-    std::map<int, int> tile_of;  // cells touched by tiles of this colour
-    for (int k = tiled.colours().start[colour]; k < tiled.colours().start[colour + 1]; ++k) {
-      pairs += tiled.tile(k).self_pairs.size();
-      for (const kernels::Window& w : tiled.tile(k).windows) {
-        found.push_back(key(w));
-        for (const int slot : {w.p, w.q})
-          shared += tile_of.try_emplace(state.tissue.cell_of(padded.vertex(slot)), k).first->second != k;
-      }
+  for (const kernels::Window& w : whole.entries(0).windows) expected.push_back(key(w));
+  std::vector<int> worked_on;
+  std::size_t pairs = 0, between = 0;
+  int wrong = 0;
+  const auto take = [&](int list, int first, int second) {
+    worked_on.push_back(list);
+    pairs += divided.entries(list).self_pairs.size();
+    for (const kernels::Window& w : divided.entries(list).windows) {
+      found.push_back(key(w));
+      const int p = block_of(w.p), q = block_of(w.q);
+      if (list < schedule.blocks())
+        wrong += std::max(p, q) != list || part_of(p) != part_of(q);
+      else
+        wrong += part_of(p) != first || part_of(q) != second, ++between;
     }
+  };
+  for (int b = 0; b < schedule.blocks(); ++b) take(b, 0, 0);
+  std::set<std::pair<int, int>> taken;  // (round, part)
+  for (const auto& [first, second, round] : schedule.pairs()) {
+    wrong += !taken.insert({round, first}).second || !taken.insert({round, second}).second;
+    take(schedule.list_between(first, second), first, second);
+    take(schedule.list_between(second, first), second, first);
   }
+  std::vector<int> order;
+  schedule.for_each_list(WorkerPool::alone(), [&](int list) { order.push_back(list); });
+  CHECK(order == worked_on);
   std::sort(expected.begin(), expected.end());
   std::sort(found.begin(), found.end());
   CHECK(expected.size() > 10000);
+  CHECK(between > 1000);
   CHECK(found == expected);
-  CHECK(pairs == whole.tile(0).self_pairs.size());
-  CHECK(shared == 0);
+  CHECK(pairs == whole.entries(0).self_pairs.size());
+  CHECK(wrong == 0);
 }

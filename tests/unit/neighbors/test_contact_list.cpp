@@ -39,7 +39,7 @@ Tally tally(const TissueState& state, double reach, double self_reach, double sk
   const Tissue& tissue = state.tissue;
   std::map<std::pair<int, int>, int> covered;  // (vertex, segment)
   Tally result;
-  for (const kernels::Window& w : list.tile(0).windows) {
+  for (const kernels::Window& w : list.entries(0).windows) {
     result.wide += w.segments < 1 || w.segments > 7;
     const int p = padded.vertex(w.p);
     CHECK(padded.slot(p) == w.p);
@@ -62,7 +62,7 @@ Tally tally(const TissueState& state, double reach, double self_reach, double sk
       result.missed += !covered.contains({p, s});
     }
   std::set<std::pair<int, int>> pairs;
-  for (const kernels::SelfPair& pair : list.tile(0).self_pairs) {
+  for (const kernels::SelfPair& pair : list.entries(0).self_pairs) {
     const int i = padded.vertex(pair.i), j = padded.vertex(pair.j);
     result.pair_errors += !pairs.insert(std::minmax(i, j)).second;
   }

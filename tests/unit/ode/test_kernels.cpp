@@ -41,8 +41,8 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   ContactList list(0.26, 0.2, 0.1);
   list.build(padded.shell, table);
   const kernels::ContactScalars contact = scalars(0.2, 0.1, 0.3);
-  const std::vector<kernels::Window>& windows = list.tile(0).windows;
-  const std::vector<kernels::SelfPair>& pairs = list.tile(0).self_pairs;
+  const std::vector<kernels::Window>& windows = list.entries(0).windows;
+  const std::vector<kernels::SelfPair>& pairs = list.entries(0).self_pairs;
   table.contact_gradient(padded.shell, contact, windows.data(), windows.size(), pairs.data(), pairs.size());
   std::vector<double> result{static_cast<double>(windows.size())};
   std::vector<double> part(n);
