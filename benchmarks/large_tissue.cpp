@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "geometry/hilbert_curve.hpp"
 #include "groups.hpp"
 #include "suture/converge/study.hpp"
 #include "suture/setup/protocol.hpp"
@@ -27,7 +28,8 @@ std::pair<double, double> on_hexagon(double part) {
           side * ((1.0 - inside) * std::sin(corner * first) + inside * std::sin(corner * (first + 1.0)))};
 }
 
-/// Centres of a honeycomb of `cells` places and the given pitch, nearest to the origin first, without the first `left_out`.
+/// Centres of a honeycomb of `cells` places and the given pitch around the origin, without the `left_out` nearest to it; numbered
+/// along a space-filling curve, as packings of this size are.
 std::vector<std::pair<double, double>> honeycomb_centres(int cells, int left_out, double pitch) {
   std::vector<std::pair<double, double>> centres;
   const int half = static_cast<int>(std::ceil(0.6 * std::sqrt(cells))) + 2;
@@ -38,6 +40,9 @@ std::vector<std::pair<double, double>> honeycomb_centres(int cells, int left_out
   std::stable_sort(centres.begin(), centres.end(), [&](const auto& a, const auto& b) { return radius(a) < radius(b); });
   centres.resize(cells);
   centres.erase(centres.begin(), centres.begin() + left_out);
+  const double extent = std::sqrt(radius(centres.back()));
+  const auto index = [extent](const auto& c) { return hilbert_index(0.5 + 0.5 * c.first / extent, 0.5 + 0.5 * c.second / extent); };
+  std::stable_sort(centres.begin(), centres.end(), [&](const auto& a, const auto& b) { return index(a) < index(b); });
   return centres;
 }
 

@@ -13,6 +13,7 @@
 #include "suture/measure/patch.hpp"
 #include "suture/physics/confinement.hpp"
 #include "suture/setup/placement.hpp"
+#include "threads/ranges.hpp"
 
 namespace suture {
 
@@ -48,7 +49,8 @@ std::vector<double> random_polygons(const Config& config, const Tissue& tissue, 
     corner_radii.push_back(std::sqrt(2.0 * tissue.material(cell).rest_area / (corners * std::sin(2.0 * pi / corners))));
   }
   RandomStream centres(config.tissue.seed, RandomPurpose::centres, attempt);
-  const DiscPlacement placement = spread_discs(disc_radii, wall_radius, centres);
+  DiscPlacement placement = spread_discs(disc_radii, wall_radius, centres);
+  if (tissue.vertex_count() >= divided_from_vertices) number_along_curve(tissue, placement);
   // Membranes may be pressed together by half a membrane at most: beyond that they could cross.
   const double shrink = std::max(0.0, placement.deepest_overlap - half_membrane);
   for (double& radius : corner_radii) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/hilbert_curve.hpp"
 #include "suture/setup/fire.hpp"
 
 namespace suture {
@@ -77,6 +78,29 @@ DiscPlacement spread_discs(std::span<const double> radii, double wall_radius, Ra
   DiscPlacement placement{.x = {q.begin(), q.begin() + count}, .y = {q.begin() + count, q.end()}};
   placement.deepest_overlap = deepest_overlap(radii, wall_radius, placement.x, placement.y);
   return placement;
+}
+
+void number_along_curve(const Tissue& tissue, DiscPlacement& centres) {
+  double extent = 1.0;
+  for (const auto* coordinates : {&centres.x, &centres.y})
+    for (const double c : *coordinates) extent = std::max(extent, std::abs(c));
+  struct Place {
+    std::uint64_t index;
+    double x, y;
+  };
+  const auto same_kind = [&](int a, int b) {
+    return tissue.vertex_count(a) == tissue.vertex_count(b) && tissue.material(a) == tissue.material(b);
+  };
+  std::vector<Place> places;
+  for (int first = 0, end; first < tissue.cell_count(); first = end) {
+    places.clear();
+    for (end = first; end < tissue.cell_count() && same_kind(first, end); ++end) {
+      const double x = centres.x[end], y = centres.y[end];
+      places.push_back({hilbert_index(0.5 + 0.5 * x / extent, 0.5 + 0.5 * y / extent), x, y});
+    }
+    std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.index < b.index; });
+    for (int cell = first; cell < end; ++cell) centres.x[cell] = places[cell - first].x, centres.y[cell] = places[cell - first].y;
+  }
 }
 
 std::vector<double> regular_polygons(const Tissue& tissue, const DiscPlacement& centres,

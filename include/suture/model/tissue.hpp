@@ -17,6 +17,7 @@ struct CellMaterial {
   double bending_stiffness = 0.01;  ///< k_b
   double tau = 9.6;                 ///< plastic relaxation time (may be infinity)
   double memory = 0.0;              ///< xi
+  friend bool operator==(const CellMaterial&, const CellMaterial&) = default;
 };
 
 /// Closed, counter-clockwise polygonal cells. Vertices are numbered cell after cell; segment v joins v to next(v).

@@ -18,6 +18,10 @@ struct DiscPlacement {
 /// Random centres, spread by minimising the soft overlaps sum (1 - d/(r_i + r_j))^2 (wall: (1 - (R - r)/r_i)^2).
 DiscPlacement spread_discs(std::span<const double> radii, double wall_radius, RandomStream& random);
 
+/// Renumbers the places of the cells of each kind (material and number of vertices) along a space-filling curve, so that neighbours
+/// have close numbers: a rate of a large tissue then finds them in the cache. Places keep their kind.
+void number_along_curve(const Tissue& tissue, DiscPlacement& centres);
+
 /// Positions (all x, then all y) of one regular polygon per cell with its corners `corner_radius[cell]` from its
 /// centre, turned at random and each corner moved radially by a normal random fraction `noise` of that radius.
 std::vector<double> regular_polygons(const Tissue& tissue, const DiscPlacement& centres,
