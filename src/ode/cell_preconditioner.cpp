@@ -130,7 +130,7 @@ void CellPreconditioner::add(Batch& batch, int lane, int row, int column, double
 void CellPreconditioner::sum_diagonal(const ContactFactors& contacts, std::span<const PointBlock> extra, WorkerPool& workers) {
   std::fill_n(diagonal_, 4 * static_cast<std::size_t>(padded_->slots()), 0.0);
   // Lists at work at once touch no common cell, hence no common slot.
-  contacts.for_each_list(workers, [&](std::span<const kernels::ContactFactor> factors) {
+  contacts.for_each_list(workers, [&](int, std::span<const kernels::ContactFactor> factors) {
     kernel_->contact_diagonal(factors.data(), factors.size(), diagonal_);
   });
   for (int c = 0; c < padded_->cells(); ++c) {

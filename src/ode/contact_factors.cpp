@@ -26,10 +26,4 @@ void ContactFactors::linearise(const ContactList& list, const kernels::Shell& sh
   });
 }
 
-void ContactFactors::add_product(const kernels::ShellHessian& hessian, const kernels::Table& kernel, WorkerPool& workers) const {
-  for_each_list(workers, [&](std::span<const kernels::ContactFactor> factors) {
-    kernel.contact_product(factors.data(), factors.size(), hessian.vx, hessian.vy, hessian.ox, hessian.oy);
-  });
-}
-
 }  // namespace suture

@@ -15,13 +15,10 @@ class ContactFactors {
   /// lowest: curvatures below it are replaced by it.
   void linearise(const ContactList& list, const kernels::Shell& shell, const kernels::ContactScalars& contact, double lowest,
                  const kernels::Table& kernel, WorkerPool& workers);
-  /// (ox, oy) += H_contact (vx, vy) in the padded arrays of `hessian`.
-  void add_product(const kernels::ShellHessian& hessian, const kernels::Table& kernel, WorkerPool& workers) const;
-
-  /// task(span of factors), for lists that touch no common cell at once; in a fixed order for every cell.
+  /// task(list, span of factors), as ContactSchedule::for_each_list.
   template <class Task>
   void for_each_list(WorkerPool& workers, const Task& task) const {
-    schedule_.for_each_list(workers, [&](int k) { task(std::span(lists_[k].factors.data(), lists_[k].live)); });
+    schedule_.for_each_list(workers, [&](int k) { task(k, std::span(lists_[k].factors.data(), lists_[k].live)); });
   }
 
   /// visit(factor), one after the other.

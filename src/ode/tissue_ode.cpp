@@ -159,12 +159,14 @@ void TissueOde::product(std::span<const double> v, std::span<double> out) {
   Impl& m = *impl_;
   const int vertices = m.layout.vertices, points = m.layout.points();
   const kernels::ShellHessian& h = m.padded.hessian;
-  m.for_each_block([&](int block) {
-    m.padded.unpack(v.first(vertices), h.vx, block);
-    m.padded.unpack(v.subspan(points, vertices), h.vy, block);
-    m.kernel.shell_product(m.padded.shell_of(block), m.padded.hessian_of(block));
+  m.factors.for_each_list(m.workers, [&](int list, std::span<const kernels::ContactFactor> factors) {
+    if (list < m.padded.blocks()) {  // just before its contacts, while it is in the cache
+      m.padded.unpack(v.first(vertices), h.vx, list);
+      m.padded.unpack(v.subspan(points, vertices), h.vy, list);
+      m.kernel.shell_product(m.padded.shell_of(list), m.padded.hessian_of(list));
+    }
+    m.kernel.contact_product(factors.data(), factors.size(), h.vx, h.vy, h.ox, h.oy);
   });
-  m.factors.add_product(h, m.kernel, m.workers);
   std::fill_n(out.begin() + vertices, points - vertices, 0.0);
   std::fill_n(out.begin() + points + vertices, points - vertices, 0.0);
   m.for_each_block([&](int block) {
