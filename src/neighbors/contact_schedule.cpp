@@ -1,5 +1,7 @@
 #include "neighbors/contact_schedule.hpp"
 
+#include <tuple>
+
 namespace suture {
 
 void ContactSchedule::divide(int cells, int cells_per_block) {
@@ -24,7 +26,8 @@ void ContactSchedule::number_rounds() {
     else
       *round |= both;
   }
-  std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.round < b.round; });
+  const auto place = [](const Pair& pair) { return std::tuple(pair.round, pair.first, pair.second); };
+  std::sort(pairs_.begin(), pairs_.end(), [&](const Pair& a, const Pair& b) { return place(a) < place(b); });
 }
 
 }  // namespace suture
