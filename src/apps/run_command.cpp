@@ -68,6 +68,7 @@ void run(const Options& options, CommandResult& result) {
   const std::optional<double> max_wall =
       options.max_wall.empty() ? std::nullopt : std::optional(parse_wall_time(options.max_wall, "--max-wall"));
   if (!is_to_be_run(options)) {
+    remove_leftovers(options.directory);
     if (!options.quiet) std::cout << fmt::format("already finished; results in {}\n", options.directory);
     return;
   }

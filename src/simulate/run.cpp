@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/checkpoint_file.hpp"
 #include "io/journal.hpp"
 #include "simulate/wound_closure_run.hpp"
 #include "suture/errors.hpp"
@@ -66,8 +67,13 @@ bool holds_results(const std::filesystem::path& journal) {
 
 DirectoryContent content_of(const std::filesystem::path& directory) {
   const auto holds = [&](const std::filesystem::path& path) { return std::filesystem::exists(path); };
-  if (holds(journal_path(directory / "run.h5"))) return DirectoryContent::unfinished;  // it is removed last
+  if (holds(journal_path(directory / "run.h5"))) return DirectoryContent::unfinished;  // it is removed when run.h5 is complete
   return holds(directory / "run.h5") ? DirectoryContent::finished : DirectoryContent::nothing;
+}
+
+void remove_leftovers(const std::filesystem::path& directory) {
+  remove_checkpoints(directory);
+  remove_status(directory);
 }
 
 RunOutcome run_protocol(const RunRequest& original) {

@@ -217,8 +217,7 @@ void WoundClosureRun::publish() {
   recorder_.draw();
   if (finished) {
     writer_.discard_journal();
-    remove_checkpoints(request_.directory);
-    remove_status(request_.directory);
+    remove_leftovers(request_.directory);
   } else {
     note_.state = "stopped", note_.wall_s = run_watch_.seconds(), note_.eta_s.reset();
     write_status(request_.directory, note_);

@@ -30,6 +30,9 @@ enum class DirectoryContent {
 };
 DirectoryContent content_of(const std::filesystem::path& directory);
 
+/// Removes the checkpoints and status.json that a program killed at the very end leaves beside a finished run.
+void remove_leftovers(const std::filesystem::path& directory);
+
 struct RunOutcome {
   RunSummary summary;
   std::string failure;  ///< why the run failed; empty unless summary.status is failed

@@ -91,10 +91,16 @@ TEST_CASE("a run that is stopped as soon as it starts can be resumed until it is
   CHECK(changed.exit_code == 2);
   CHECK_THAT(changed.errors, Contains("area.stiffness was 16.0, is 17.0") && !Contains("end_time"));
   REQUIRE(run_suture(SUTURE_PROGRAM, quick("out", {"--resume"}), directory.path()).exit_code == 0);
-  for (const char* gone : {"run.journal", "checkpoint", "checkpoint.previous", "status.json"})
-    CHECK(!std::filesystem::exists(directory.path() / "out" / gone));
+  const auto check_gone = [&] {
+    for (const char* gone : {"run.journal", "checkpoint", "checkpoint.previous", "status.json"})
+      CHECK(!std::filesystem::exists(directory.path() / "out" / gone));
+  };
+  check_gone();
   const std::string done = read_bytes(directory.path() / "out/run.h5");
+  for (const char* left : {"checkpoint", "checkpoint.previous", "status.json"})  // as by a program killed at the very end
+    write_bytes(directory.path() / "out" / left, "left");
   CHECK(run_suture(SUTURE_PROGRAM, quick("out", {"--resume"}), directory.path()).exit_code == 0);
+  check_gone();
   CHECK(read_bytes(directory.path() / "out/run.h5") == done);
   CHECK_THAT(run_suture(SUTURE_PROGRAM, {"status", "out"}, directory.path()).output, Contains("finished: closed"));
   REQUIRE(run_suture(SUTURE_PROGRAM, quick("whole"), directory.path()).exit_code == 0);
