@@ -92,6 +92,10 @@ Transformed cycled(const TissueState& state, int shift) {
 Transformed reordered(const TissueState& state) {
   std::vector<int> cells = in_order(state.tissue.cell_count());
   std::reverse(cells.begin(), cells.end());
+  return reordered(state, cells);
+}
+
+Transformed reordered(const TissueState& state, const std::vector<int>& cells) {
   const auto same = [](int k, int) { return k; };
   return renumbered("cells renumbered", state, cells, same, same);
 }

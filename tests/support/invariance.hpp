@@ -28,6 +28,8 @@ Transformed reflected(const TissueState& state);
 Transformed cycled(const TissueState& state, int shift);
 /// Cells in reverse order.
 Transformed reordered(const TissueState& state);
+/// Cell i is old cell cells[i].
+Transformed reordered(const TissueState& state, const std::vector<int>& cells);
 
 /// One of each.
 std::vector<Transformed> all_transformations(const TissueState& state);
