@@ -133,13 +133,12 @@ struct Table {
   /// rhs: (row, x or y, lane); overwritten by the solution.
   void (*cyclic_solve1)(const CyclicBatch&, double* rhs);
   void (*cyclic_solve8)(const CyclicBatch&, double* rhs);
-  // Vectors: n is a multiple of 8 (zero-padded).
+  // Vectors of any length.
   double (*weighted_square_sum)(std::size_t n, const double* x, const double* w);  ///< sum (x w)^2
   double (*dot)(std::size_t n, const double* x, const double* y);
   void (*linear_sum)(std::size_t n, double a, const double* x, double b, const double* y, double* z);
   void (*linear_combination)(std::size_t n, int count, const double* c, const double* const* x, double* z);
   void (*scale_add_multi)(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z);
-  // Any n.
   double (*largest_move2)(std::size_t n, const double* x, const double* y, const double* x0, const double* y0);  ///< squared
   bool (*finite)(std::size_t n, const double* x);  ///< all below 1e300
   bool (*negate)(std::size_t n, double* x);        ///< in place; returns what finite would

@@ -1,43 +1,60 @@
-// Fused vector operations. Lengths are rounded up to whole cache lines by the owners, whose padding is zero.
+// Fused vector operations, of any length: whole vectors of eight, then what is left one by one.
 
 double weighted_square_sum(std::size_t n, const double* x, const double* w) {
   Double8 s0{}, s1{};
-  for (std::size_t k = 0; k < n; k += lanes) {
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
     const Double8 a = load(x + k) * load(w + k);
     (k & lanes ? s1 : s0) += a * a;
   }
-  return sum(s0 + s1);
+  double rest = 0.0;
+  for (; k < n; ++k) rest += x[k] * w[k] * (x[k] * w[k]);
+  return sum(s0 + s1) + rest;
 }
 
 double dot(std::size_t n, const double* x, const double* y) {
   Double8 s0{}, s1{};
-  for (std::size_t k = 0; k < n; k += lanes) (k & lanes ? s1 : s0) += load(x + k) * load(y + k);
-  return sum(s0 + s1);
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) (k & lanes ? s1 : s0) += load(x + k) * load(y + k);
+  double rest = 0.0;
+  for (; k < n; ++k) rest += x[k] * y[k];
+  return sum(s0 + s1) + rest;
 }
 
 /// z = a x + b y
 void linear_sum(std::size_t n, double a, const double* x, double b, const double* y, double* z) {
-  for (std::size_t k = 0; k < n; k += lanes) store(z + k, a * load(x + k) + b * load(y + k));
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) store(z + k, a * load(x + k) + b * load(y + k));
+  for (; k < n; ++k) z[k] = a * x[k] + b * y[k];
 }
 
 /// z = sum of c[j] x[j]
 void linear_combination(std::size_t n, int count, const double* c, const double* const* x, double* z) {
-  for (std::size_t k = 0; k < n; k += lanes) {
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
     Double8 a = c[0] * load(x[0] + k);
     for (int j = 1; j < count; ++j) a += c[j] * load(x[j] + k);
     store(z + k, a);
+  }
+  for (; k < n; ++k) {
+    double a = c[0] * x[0][k];
+    for (int j = 1; j < count; ++j) a += c[j] * x[j][k];
+    z[k] = a;
   }
 }
 
 /// z[j] = a[j] x + y[j]
 void scale_add_multi(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z) {
-  for (std::size_t k = 0; k < n; k += lanes) {
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
     const Double8 v = load(x + k);
     for (int j = 0; j < count; ++j) store(z[j] + k, a[j] * v + load(y[j] + k));
   }
+  for (; k < n; ++k) {
+    const double v = x[k];
+    for (int j = 0; j < count; ++j) z[j][k] = a[j] * v + y[j][k];
+  }
 }
-
-// The rest takes vectors of any length.
 
 /// The largest (x - x0)^2 + (y - y0)^2; what is not a number does not count.
 double largest_move2(std::size_t n, const double* x, const double* y, const double* x0, const double* y0) {

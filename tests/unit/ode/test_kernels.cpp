@@ -99,11 +99,14 @@ TEST_CASE("baseline, AVX2 and AVX-512 kernels agree to rounding", "[unit]") {
 }
 
 TEST_CASE("the vector operations equal plain loops", "[unit]") {
-  const std::size_t n = 88;
-  alignas(64) static double x[n], y[n], w[n], z[n], z2[n], expected[n];
-  for (std::size_t k = 0; k < n; ++k) x[k] = std::sin(k + 1.0), y[k] = std::cos(3.0 * k), w[k] = 1.0 + 0.1 * k;
+  constexpr std::size_t most = 88;
+  alignas(64) static double x[most], y[most], w[most], z[most], z2[most], expected[most];
+  for (std::size_t k = 0; k < most; ++k) x[k] = std::sin(k + 1.0), y[k] = std::cos(3.0 * k), w[k] = 1.0 + 0.1 * k;
+  const std::size_t n = GENERATE(88, 81, 47, 5);
   for (const kernels::Table* table : runnable_tables()) {
-    CAPTURE(table->name);
+    CAPTURE(table->name, n);
+    std::fill(z, z + most, 7.0);
+    std::fill(z2, z2 + most, 7.0);
     double squares = 0.0, dot = 0.0;
     for (std::size_t k = 0; k < n; ++k) squares += x[k] * w[k] * x[k] * w[k], dot += x[k] * y[k];
     CHECK(table->weighted_square_sum(n, x, w) == Approx(squares).epsilon(1e-14));
@@ -123,6 +126,7 @@ TEST_CASE("the vector operations equal plain loops", "[unit]") {
     CHECK(largest_difference({z, n}, {expected, n}) < 1e-15 * 4);
     for (std::size_t k = 0; k < n; ++k) expected[k] = -2.0 * x[k] + w[k];
     CHECK(largest_difference({z2, n}, {expected, n}) < 1e-14);
+    for (const double* array : {z, z2}) CHECK(std::count(array + n, array + most, 7.0) == static_cast<std::ptrdiff_t>(most - n));
   }
 }
 
