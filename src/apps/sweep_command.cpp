@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -24,7 +26,7 @@ struct Options {
   std::string file, directory = "out", seeds;
   std::vector<std::string> overrides;
   int jobs = 0, run_index = -1;
-  double lease_s = 300.0;
+  double lease_s = 300.0, tables_every_s = 60.0;
   bool resume = false, list = false, tables = false, quiet = false;
 };
 
@@ -63,12 +65,34 @@ struct SweepEnd {
   SweepProgress progress;
 };
 
-SweepEnd execute(const Options& options, const SweepFolder& folder, const SweepPlan& plan) {
+/// The tables while a sweep goes on: not more often than asked for, and never for more than a twentieth of the time.
+class TablesInBetween {
+ public:
+  TablesInBetween(const SweepFolder& folder, const SweepPlan& plan, double every_s) : folder_(folder), plan_(plan), every_s_(every_s) {}
+  void run_ended() {
+    const Clock::time_point start = Clock::now();
+    if (std::chrono::duration<double>(start - last_).count() < std::max(every_s_, 20.0 * took_s_)) return;
+    collect_sweep(folder_, plan_);
+    last_ = Clock::now();
+    took_s_ = std::chrono::duration<double>(last_ - start).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const SweepFolder& folder_;
+  const SweepPlan& plan_;
+  double every_s_, took_s_ = 0.0;
+  Clock::time_point last_ = Clock::now();
+};
+
+SweepEnd execute(const Options& options, const SweepFolder& folder, const SweepPlan& plan, bool with_tables) {
   const StopRequest stop{std::nullopt};
   ProgressLine line;
   SweepEnd end;
+  TablesInBetween tables(folder, plan, options.tables_every_s);
   const auto report = [&](const SweepProgress& progress) {
     end.progress = progress;
+    if (with_tables && !progress.last.empty()) tables.run_ended();
     // A log wants a line when something has ended, a terminal a living one.
     if (options.quiet || (progress.last.empty() && isatty(STDERR_FILENO) == 0)) return;
     const int to_do = progress.total - progress.finished_before;
@@ -89,7 +113,7 @@ void sweep(const Options& options, CommandResult& result) {
   const SweepPlan selected = one ? only(plan, options.run_index) : plan;
   folder.create();
   if (options.tables) return collect_sweep(folder, plan);
-  const SweepEnd end = execute(options, folder, selected);
+  const SweepEnd end = execute(options, folder, selected, !one);
   if (!one) collect_sweep(folder, plan);
   if (!options.quiet) std::cout << fmt::format("{}; results in {}\n", verdict(end.progress), options.directory);
   if (!end.complete) {
@@ -115,6 +139,8 @@ void add_sweep_command(CLI::App& program, CommandResult& result) {
   command->add_option("--run-index", options->run_index, "execute one run of the list, for batch systems")
       ->check(CLI::NonNegativeNumber)->excludes(list);
   command->add_flag("--tables", options->tables, "write the tables of what is finished and run nothing")->excludes(list);
+  command->add_option("--tables-every", options->tables_every_s, "seconds between two writings of the tables while the sweep goes on; they follow the end of a run")
+      ->check(CLI::Range(0.0, 1e9))->capture_default_str();
   command->add_option("--lease", options->lease_s, "seconds without a sign of life after which a worker on another machine counts as dead")
       ->check(CLI::Range(1.0, 1e6))->capture_default_str();
   command->add_flag("--resume", options->resume, "continue what is in DIR (always the case; accepted for clarity)");

@@ -26,7 +26,7 @@ constexpr std::array tether_laws{
 constexpr std::array capture_laws{
     choice("split", CaptureLaw::split, "the split spring's rest length is halved and its tension kept"),
     choice("tension_free", CaptureLaw::tension_free, "both halves start without tension"),
-    choice("slip", CaptureLaw::slip, "halves the wrong spring, as the published simulations did; validation only"),
+    choice("slip", CaptureLaw::slip, "halves the wrong spring, as the published simulations did; for their fixed steps: methods with error control crawl or fail at it"),
 };
 constexpr std::array capture_searches{
     choice("boundary", CaptureSearch::boundary, "the exposed vertices of the wound's outline, in its order"),

@@ -68,11 +68,11 @@ Outcome sweep(const TemporaryDirectory& directory, const std::string& out, std::
 }
 
 /// The sweep in the background, in `directory`.
-pid_t start_sweep(const TemporaryDirectory& directory, const std::string& out) {
+pid_t start_sweep(const TemporaryDirectory& directory, const std::string& out, const std::string& tables_every = "60") {
   const pid_t child = fork();
   if (child != 0) return child;
   if (chdir(directory.path().c_str()) == 0)
-    execl(SUTURE_PROGRAM, SUTURE_PROGRAM, "sweep", "sweep.toml", "--quiet", "--jobs", "2", "--out", out.c_str(), nullptr);
+    execl(SUTURE_PROGRAM, SUTURE_PROGRAM, "sweep", "sweep.toml", "--quiet", "--jobs", "2", "--tables-every", tables_every.c_str(), "--out", out.c_str(), nullptr);
   _exit(127);
 }
 
@@ -259,6 +259,25 @@ TEST_CASE("Ctrl-C stops a sweep with exit code 75 and leaves no claim", "[cli][s
   CHECK(finished_runs(directory, "out") < 8);
   CHECK(fs::is_empty(directory.path() / "out/claims"));
   CHECK(read_csv(directory.path() / "out/sweep.csv").size() == 8);
+}
+
+TEST_CASE("tables are written while a sweep goes on, unless that is not wanted", "[cli][sweep]") {
+  const TemporaryDirectory directory;
+  directory.write("sweep.toml", tiny);
+  const fs::path often = directory.path() / "often/nodes.csv", never = directory.path() / "never/nodes.csv";
+  pid_t child = start_sweep(directory, "often", "0");
+  while (finished_runs(directory, "often") < 8 && !fs::exists(often)) usleep(1000);
+  kill(child, SIGKILL);
+  CHECK(exit_code_of(child) == -SIGKILL);
+  const Rows nodes = read_csv(often);
+  REQUIRE(nodes.size() == 4);
+  CHECK(nodes[0].at("runs") != "0");
+  CHECK(nodes[3].at("runs_waiting") == "2");
+  child = start_sweep(directory, "never", "1e9");
+  while (finished_runs(directory, "never") < 4) usleep(1000);
+  kill(child, SIGKILL);
+  CHECK(exit_code_of(child) == -SIGKILL);
+  CHECK(!fs::exists(never));
 }
 
 TEST_CASE("two sweeps on one folder share the work", "[cli][sweep]") {
