@@ -1,5 +1,5 @@
 // The kernels' vector operations on vectors that several threads may share: long ones are cut into fixed ranges, and sums
-// are added range by range, so that the number of threads changes no bit. Lengths n and paddings as in kernels.hpp.
+// are added range by range, so that the number of threads changes no bit. Any length n, as in kernels.hpp.
 #pragma once
 
 #include <array>
