@@ -1,6 +1,7 @@
 #include "integrate/minimising_newton.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace suture {
@@ -48,13 +49,58 @@ void MinimisingNewton::refresh(double gamma) {
   last_linear_ = 0;
 }
 
-double MinimisingNewton::linearise(double gamma, double fz) {
-  system_->linearise();
-  ++counts_.hessians;
-  if (!options_.always_set_up) return fz;
-  refresh(gamma);
+double MinimisingNewton::precondition_residual() {
   system_->precondition(span(f_), span(z_));
   return operations_.dot(padded_, f_, z_);
+}
+
+double MinimisingNewton::linearise(double gamma, double fz, bool renew) {
+  system_->linearise();
+  ++counts_.hessians;
+  if (!options_.always_set_up && !(renew && preconditioner_age_ > 1)) return fz;
+  refresh(gamma);
+  return precondition_residual();
+}
+
+double MinimisingNewton::largest(const double* v) const {
+  std::array<double, 8> most{};  // one would wait for the last comparison
+  for (std::size_t i = 0; i < padded_; i += most.size())
+    for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::max(most[k], std::abs(v[i + k]));
+  return *std::max_element(most.begin(), most.end());
+}
+
+bool MinimisingNewton::too_long(const NewtonTarget& target) {
+  operations_.linear_sum(padded_, 1.0, q_, -1.0, start_, trial_);
+  if (norm(operations_.dot(padded_, trial_, trial_)) <= target.give_up) return false;
+  std::copy_n(trial_, n_, z_);
+  ++counts_.early_exits;
+  return true;
+}
+
+bool MinimisingNewton::secants(double& fz, double wanted) {
+  const VectorOperations& k = operations_;
+  constexpr double shortest = 0.05, longest = 3.0;  // a step beyond these, or one uphill, tells of contacts that P does not know
+  constexpr double most_growth = 4.0;                // of the squared error, which need not fall in every iteration
+  bool moved = false;
+  k.linear_sum(padded_, -1.0, z_, 0.0, z_, p_);
+  for (int iteration = 1; iteration <= options_.maximum_secants; ++iteration) {
+    k.linear_sum(padded_, 1.0, q_, 1.0, p_, trial_);
+    if (largest(p_) > options_.largest_move || residual(span(trial_), r_) != Evaluation::ok) break;
+    ++counts_.iterations;
+    k.linear_sum(padded_, 1.0, r_, -1.0, f_, ap_);
+    const double step = fz / k.dot(padded_, p_, ap_);
+    if (!(step > shortest && step < longest)) break;
+    k.linear_sum(padded_, 1.0, q_, step, p_, q_);
+    k.linear_sum(padded_, 1.0, f_, step, ap_, f_);
+    moved = true;
+    const double before = fz;
+    fz = precondition_residual();
+    last_linear_ = iteration;
+    if (fresh_linear_ == 0) fresh_linear_ = iteration;
+    if (norm(fz) <= wanted || !(fz <= most_growth * before)) break;
+    k.linear_sum(padded_, std::max(0.0, step * k.dot(padded_, z_, ap_) / before), p_, -1.0, z_, p_);
+  }
+  return moved;
 }
 
 void MinimisingNewton::conjugate_gradients(double fz, double target) {
@@ -87,9 +133,8 @@ void MinimisingNewton::conjugate_gradients(double fz, double target) {
 
 bool MinimisingNewton::line_search() {
   const VectorOperations& k = operations_;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < n_; ++i) largest = std::max(largest, std::abs(d_[i]));
-  if (largest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / largest, d_, 0.0, d_, d_);
+  const double longest = largest(d_);
+  if (longest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / longest, d_, 0.0, d_, d_);
   const double slope = k.dot(padded_, f_, d_);
   // Forces are piecewise linear, so one secant on the directional derivative is nearly exact.
   double step = 1.0;
@@ -110,6 +155,11 @@ bool MinimisingNewton::line_search() {
   return false;
 }
 
+NewtonResult MinimisingNewton::failed() {
+  ++counts_.failures;
+  return NewtonResult::not_converged;
+}
+
 NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const NewtonTarget& target) {
   const VectorOperations& k = operations_;
   const double wanted = 0.5 * target.tolerance;
@@ -117,8 +167,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   std::copy_n(q.data(), n_, start_);
   if (residual(span(q_), f_) != Evaluation::ok) {
     std::fill_n(z_, n_, 0.0);
-    ++counts_.failures;
-    return NewtonResult::not_converged;
+    return failed();
   }
   ++preconditioner_age_;
   bool linearised = false;
@@ -128,32 +177,34 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
     refresh(gamma);
     linearised = true;
   }
-  double error = 0.0;
-  for (int iteration = 0; iteration <= options_.maximum_iterations; ++iteration) {
-    system_->precondition(span(f_), span(z_));
-    double fz = k.dot(padded_, f_, z_);
-    error = norm(fz);
+  double fz = precondition_residual();
+  const bool tried = options_.maximum_secants > 0 && !options_.always_set_up && norm(fz) > wanted;
+  if (tried) {
+    const bool moved = secants(fz, wanted);
+    if (moved && too_long(target)) return NewtonResult::too_long;
+    if (moved && norm(fz) > wanted) {  // f_ is interpolated
+      linearised = false;
+      if (residual(span(q_), f_) != Evaluation::ok) return failed();
+      fz = precondition_residual();
+    }
+  }
+  for (int iteration = 0;; ++iteration) {
+    const double error = norm(fz);
     const bool last = iteration == options_.maximum_iterations;
     if (error <= wanted || (last && error <= 6.0 * wanted)) {
       k.linear_sum(padded_, 1.0, q_, -1.0, z_, q_);  // a free correction, already paid for
       std::copy_n(q_, n_, q.data());
       return NewtonResult::converged;
     }
-    if (last || !std::isfinite(error)) break;
-    if (!linearised) fz = linearise(gamma, fz);
+    if (last || !std::isfinite(error)) return failed();
+    if (!linearised) fz = linearise(gamma, fz, tried && iteration == 0);
     linearised = false;
     ++counts_.iterations;
     conjugate_gradients(fz, std::max(options_.forcing * error, wanted));
-    if (!line_search()) break;
-    k.linear_sum(padded_, 1.0, q_, -1.0, start_, trial_);
-    if (norm(k.dot(padded_, trial_, trial_)) > target.give_up) {
-      std::copy_n(trial_, n_, z_);
-      ++counts_.early_exits;
-      return NewtonResult::too_long;
-    }
+    if (!line_search()) return failed();
+    if (too_long(target)) return NewtonResult::too_long;
+    fz = precondition_residual();
   }
-  ++counts_.failures;
-  return NewtonResult::not_converged;
 }
 
 }  // namespace suture

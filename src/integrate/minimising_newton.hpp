@@ -18,6 +18,7 @@ struct NewtonOptions {
   double largest_move = 0.06;   ///< of any component in one iteration, model units of length (half a membrane segment)
   int maximum_iterations = 5;
   double forcing = 0.2;         ///< conjugate gradients stop at this fraction of the residual
+  int maximum_secants = 20;     ///< iterations of nonlinear conjugate gradients before Newton's method is taken; 0: none
   bool always_set_up = false;   ///< the preconditioner at every linearisation: one that is meant to be exact
 };
 
@@ -54,8 +55,18 @@ class MinimisingNewton {
   double norm(double squared) const;
   void refresh(double gamma);
   bool preconditioner_aged(double gamma) const;
-  /// At q_. Returns F.z of the preconditioned residual z_, which a new set-up changes; fz: before.
-  double linearise(double gamma, double fz);
+  NewtonResult failed();
+  /// z_ <- P^-1 f_; returns f.z.
+  double precondition_residual();
+  /// At q_. Returns f.z, which a new set-up changes; fz: before. renew: set P up anew unless this solve has done so.
+  double linearise(double gamma, double fz, bool renew);
+  double largest(const double* v) const;
+  bool too_long(const NewtonTarget& target);
+  /// Preconditioned nonlinear conjugate gradients (Polak & Ribiere 1969, not below zero) from q_, its residual f_ and
+  /// z_ = P^-1 f_. Forces are piecewise linear, so the difference of two residuals is a product with the Hessian: an iteration
+  /// costs a residual and an application of P, no second derivatives. Afterwards f_ is interpolated between residuals.
+  /// fz = f.z before and after. False if q_ has not moved.
+  bool secants(double& fz, double wanted);
   /// d <- approximate solution of (I + gamma H) d = -f; z_ holds P^-1 f.
   void conjugate_gradients(double fz, double target);
   /// Moves q_ along d_; false when no acceptable state was found.

@@ -56,9 +56,9 @@ TEST_CASE("a solve ends at a minimum of the step's function, the one a tight sol
       Step step(seed, gamma);
       const double before = step.objective(step.q), start = step.residual_norm(step.q);
       auto tight = step.q, loose = step.q;
-      MinimisingNewton exact(step.ode, {.weight = 1e11, .largest_move = 0.05, .maximum_iterations = 100});
+      MinimisingNewton exact(step.ode, {.weight = 1e11, .largest_move = 0.05, .maximum_iterations = 100, .maximum_secants = 0});
       REQUIRE(exact.solve(gamma, tight, generous) == NewtonResult::converged);
-      MinimisingNewton usual(step.ode, {.weight = 1e5, .largest_move = 0.05, .maximum_iterations = 30});
+      MinimisingNewton usual(step.ode, {.weight = 1e5, .largest_move = 0.05, .maximum_iterations = 30, .maximum_secants = 0});
       REQUIRE(usual.solve(gamma, loose, generous) == NewtonResult::converged);
       CAPTURE(seed, gamma, start, exact.counts().iterations, usual.counts().iterations);
       CHECK(step.residual_norm(tight) < 1e-9);
@@ -67,6 +67,30 @@ TEST_CASE("a solve ends at a minimum of the step's function, the one a tight sol
       CHECK(rms_difference(loose, tight) < 1e-5);
       CHECK(usual.counts().iterations < exact.counts().iterations);
       CHECK(exact.counts().failures == 0);
+    }
+}
+
+TEST_CASE("secants find the minimum that Newton's method finds, without second derivatives while steps are short", "[unit]") {
+  for (const std::uint64_t seed : {1, 2, 3})
+    for (const double gamma : {1e-3, 1e-2, 5e-2}) {
+      Step step(seed, gamma);
+      auto by_newton = step.q, by_secants = step.q;
+      const NewtonOptions options{.weight = 1e7, .largest_move = 0.05, .maximum_iterations = 50, .maximum_secants = 0};
+      MinimisingNewton newton(step.ode, options);
+      REQUIRE(newton.solve(gamma, by_newton, generous) == NewtonResult::converged);
+      NewtonOptions with_secants = options;
+      with_secants.maximum_secants = 100;
+      MinimisingNewton secants(step.ode, with_secants);
+      REQUIRE(secants.solve(gamma, by_secants, generous) == NewtonResult::converged);
+      CAPTURE(seed, gamma, newton.counts().iterations, secants.counts().iterations, secants.counts().linear_iterations);
+      CHECK(rms_difference(by_newton, step.q) > 1e-4);
+      CHECK(rms_difference(by_secants, by_newton) < 1e-7);
+      if (gamma < 0.02) {
+        CHECK(secants.counts().hessians == 1);  // the preconditioner's
+        CHECK(newton.counts().hessians >= 3);
+      } else {
+        CHECK(secants.counts().hessians > 1);  // contacts that the preconditioner does not know: Newton's method takes over
+      }
     }
 }
 

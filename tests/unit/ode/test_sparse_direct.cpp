@@ -118,7 +118,7 @@ TEST_CASE("a minimising solve takes one linear iteration per Newton iteration wi
     const double gamma = 5e-3;
     ode->begin_implicit_step(ringed.state.time, gamma, ringed.state.values);
     const bool exact = solver == LinearSolver::sparse_direct;
-    MinimisingNewton newton(*ode, {.weight = 1e9, .maximum_iterations = 60, .forcing = 1e-6, .always_set_up = exact});
+    MinimisingNewton newton(*ode, {.weight = 1e9, .maximum_iterations = 60, .forcing = 1e-6, .maximum_secants = 0, .always_set_up = exact});
     std::vector<double> q(ringed.state.values.begin(), ringed.state.values.begin() + ode->position_count());
     REQUIRE(newton.solve(gamma, q, {.tolerance = 1.0, .give_up = 1e15}) == NewtonResult::converged);
     REQUIRE(newton.counts().iterations >= 2);
