@@ -44,16 +44,11 @@ class ExplicitIntegrator : public Integrator {
       for (std::size_t k = r.begin; k < r.end; ++k) out[k] = own(k);
     });
   }
-  /// Of any length, unlike the kernels' products; eight sums side by side, so that the compiler can vectorise.
-  double square_sum(std::span<const double> v) const {
-    return operations_.sum(v.size(), [&](Range r) {
-      std::array<double, 8> s{};
-      std::size_t k = r.begin;
-      for (; k + s.size() <= r.end; k += s.size())
-        for (std::size_t i = 0; i < s.size(); ++i) s[i] += v[k + i] * v[k + i];
-      for (; k < r.end; ++k) s[0] += v[k] * v[k];
-      return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
-    });
+  double square_sum(std::span<const double> v) const { return operations_.dot(v.size(), v.data(), v.data()); }
+  /// out = the sum of coefficient * vector over all pairs.
+  template <std::size_t count>
+  void combine(std::vector<double>& out, const std::array<double, count>& coefficients, const std::array<const double*, count>& vectors) const {
+    operations_.linear_combination(out.size(), count, coefficients.data(), vectors.data(), out.data());
   }
 
   OdeSystem* system_;

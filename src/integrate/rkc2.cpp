@@ -98,8 +98,8 @@ bool Rkc2::stages(double h, int s) {
   t0 = 1.0, t1 = w0;
   double mu1 = bj1 * w1;
   std::vector<double>*previous = &stage_a_, *current = &stage_b_;  // Y_{j-2}, Y_{j-1}
-  fill(*previous, [=, this](std::size_t k) { return y_[k]; });
-  fill(*current, [=, this](std::size_t k) { return y_[k] + mu1 * h * f_[k]; });
+  *previous = y_;
+  combine<2>(*current, {1.0, mu1 * h}, {y_.data(), f_.data()});
   double c_previous = 0.0, c_current = mu1;
   for (int j = 2; j <= s; ++j) {
     const double t2 = 2.0 * w0 * t1 - t0, d2 = 2.0 * t1 + 2.0 * w0 * d1 - d0, dd2 = 4.0 * d1 + 2.0 * w0 * dd1 - dd0;
@@ -108,9 +108,7 @@ bool Rkc2::stages(double h, int s) {
     const double gammat = -(1.0 - bj1 * t1) * mut;
     if (evaluate(time_ + c_current * h, *current, stage_f_) != Evaluation::ok) return false;
     std::vector<double>& out = j == s ? y_next_ : *previous;
-    fill(out, [=, this](std::size_t k) {
-      return (1.0 - mu - nu) * y_[k] + mu * (*current)[k] + nu * (*previous)[k] + h * (mut * stage_f_[k] + gammat * f_[k]);
-    });
+    combine<5>(out, {1.0 - mu - nu, mu, nu, h * mut, h * gammat}, {y_.data(), current->data(), previous->data(), stage_f_.data(), f_.data()});
     const double c_next = mu * c_current + nu * c_previous + mut + gammat;
     c_previous = c_current, c_current = c_next;
     std::swap(previous, current);
@@ -121,7 +119,7 @@ bool Rkc2::stages(double h, int s) {
 }
 
 double Rkc2::error_norm(double h) {
-  fill(errors_, [=, this](std::size_t k) { return 0.8 * (y_[k] - y_next_[k]) + 0.4 * h * (f_[k] + f_next_[k]); });
+  combine<4>(errors_, {0.8, -0.8, 0.4 * h, 0.4 * h}, {y_.data(), y_next_.data(), f_.data(), f_next_.data()});
   return norm(errors_);
 }
 
