@@ -1,6 +1,7 @@
 // What 1e-3 l0 costs by each method: the cheapest run whose error is no larger, Euler with the largest step that is stable and
 // accurate enough, on smooth problems (ring on, no events) up to the time at which two references part.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,16 @@ namespace suture::benchmark {
 namespace {
 
 constexpr double asked = 1e-3;  // error in l0
+
+/// Runs of a few milliseconds: memory given back after each and faulted in again by the next would be half of their time.
+struct KeptMemory {
+  KeptMemory() { set(1 << 30, 1 << 30); }
+  ~KeptMemory() { set(128 << 10, 128 << 10); }  // glibc's defaults
+  static void set(int trim, int map) {
+    mallopt(M_TRIM_THRESHOLD, trim);
+    mallopt(M_MMAP_THRESHOLD, map);
+  }
+};
 
 struct Run {
   double value = 0.0, error = 0.0, seconds = 0.0;  // tolerance or step
@@ -75,6 +86,7 @@ void compare(const Settings& settings, Report& report, const std::string& name, 
 }  // namespace
 
 void measure_rivals(const Settings& settings, Report& report, const Packed& wounded) {
+  const KeptMemory kept;
   const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 40.0 : 10.0;
   // The nodes of Fig. 3 whose values are published.
   for (const double area_stiffness : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 40.0})
