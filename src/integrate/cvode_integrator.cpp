@@ -100,11 +100,11 @@ CvodeIntegrator::~CvodeIntegrator() {
 }
 
 void CvodeIntegrator::configure(double t) {
+  check(CVodeSetMaxOrd(cvode_, std::clamp(options_.maximum_order, 1, 5)), "CVodeSetMaxOrd");  // before CVodeInit takes memory for it
   check(CVodeInit(cvode_, rate, t, y_), "CVodeInit");
   check(CVodeSetUserData(cvode_, this), "CVodeSetUserData");
   check(CVodeSetErrHandlerFn(cvode_, [](int, const char*, const char*, char*, void*) {}, nullptr), "CVodeSetErrHandlerFn");
   check(CVodeWFtolerances(cvode_, weights), "CVodeWFtolerances");
-  check(CVodeSetMaxOrd(cvode_, std::clamp(options_.maximum_order, 1, 5)), "CVodeSetMaxOrd");
   check(CVodeSetNonlinConvCoef(cvode_, nonlinear_coefficient), "CVodeSetNonlinConvCoef");
   check(CVodeSetMaxNumSteps(cvode_, -1), "CVodeSetMaxNumSteps");
   check(CVodeSetMaxConvFails(cvode_, 40), "CVodeSetMaxConvFails");

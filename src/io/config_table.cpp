@@ -79,7 +79,7 @@ std::vector<ConfigKey<Config>> program_keys() {
       key<&C::integrator, &I::rest_length_tolerance>("integrator", "rest_length_tolerance", in_rest_lengths,
                                                      above_zero_to(1), "error tolerance on rest lengths"),
       key<&C::integrator, &I::maximum_order>("integrator", "maximum_order", pure_number, between(1, 5),
-                                             "highest order of the BDF and Adams formulas"),
+                                             "highest order of the BDF and Adams formulas; forces have kinks, and orders above 3 cost more than they bring"),
       key<&C::integrator, &I::keep_history>("integrator", "keep_history", pure_number, anything,
                                             "an event keeps the steps behind it; false: every event starts CVODE afresh"),
       key<&C::integrator, &I::linear_solver>("integrator", "linear_solver", pure_number, anything,

@@ -38,7 +38,7 @@ struct IntegratorOptions {
   double vertex_mass = 1.0;            ///< velocity Verlet
   double switch_stages = 12.0;         ///< automatic: rates per step of RKC2 from which CVODE takes over
   double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
-  int maximum_order = 5;
+  int maximum_order = 3;               ///< forces have kinks: higher orders amplify what the solver leaves
   LinearSolver linear_solver = LinearSolver::structured;
   bool keep_history = true;            ///< a multistep method carries its past over an event
 };

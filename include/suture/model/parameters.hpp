@@ -205,7 +205,7 @@ struct IntegratorParameters {
   Method method = Method::cvode;
   double tolerance = 1e-3;           ///< on positions, in units of l0(0)
   double rest_length_tolerance = 1e-3; ///< on rest lengths, in units of l0(0)
-  int maximum_order = 5;
+  int maximum_order = 3;             ///< forces have kinks: higher orders amplify what the solver leaves
   LinearSolver linear_solver = LinearSolver::structured;
   bool keep_history = true;          ///< carry the multistep history over events
   double maximum_step = std::numeric_limits<double>::infinity();
