@@ -133,6 +133,7 @@ void MinimisingNewton::conjugate_gradients(double fz, double target) {
 
 bool MinimisingNewton::line_search() {
   const VectorOperations& k = operations_;
+  system_->limit_step(span(q_), span(d_));
   const double longest = largest(d_);
   if (longest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / longest, d_, 0.0, d_, d_);
   const double slope = k.dot(padded_, f_, d_);

@@ -16,7 +16,7 @@ namespace suture {
 struct NewtonOptions {
   double weight = 1.0;          ///< 1/(absolute tolerance of positions)
   double largest_move = 0.06;   ///< of any component in one iteration, model units of length (half a membrane segment)
-  int maximum_iterations = 5;
+  int maximum_iterations = 20;  ///< of Newton's method: collapsed segments take many
   double forcing = 0.2;         ///< conjugate gradients stop at this fraction of the residual
   int maximum_secants = 20;     ///< iterations of nonlinear conjugate gradients before Newton's method is taken; 0: none
   bool always_set_up = false;   ///< the preconditioner at every linearisation: one that is meant to be exact

@@ -51,6 +51,8 @@ class GradientFlowSystem : public OdeSystem {
   virtual void set_up_preconditioner() = 0;
   /// z = P^-1 r, P symmetric positive definite.
   virtual void precondition(std::span<const double> r, std::span<double> z) = 0;
+  /// Takes from the step d at q what would go beyond the range in which the residual is near its linearisation.
+  virtual void limit_step(std::span<const double> /*q*/, std::span<double> /*d*/) const {}
   /// Rest lengths that belong to q, into memory (length size() - position_count()).
   virtual void recover_memory(std::span<const double> q, std::span<double> memory) = 0;
 };

@@ -176,3 +176,29 @@ TEST_CASE("a matrix can be linearised again after it was used", "[unit]") {
   CHECK(first.norm() > 1.0);
   CHECK((first - second).norm() == 0.0);
 }
+
+TEST_CASE("a step that would turn a collapsed segment round is shortened there and nowhere else", "[unit]") {
+  TissueState state = random_tissue(3);
+  const int i = state.tissue.first_vertex(1) + 2, j = i + 1, points = state.layout().points();
+  auto view = state.mutable_view();
+  view.x[j] = view.x[i] + 1e-3, view.y[j] = view.y[i];
+  TissueOde ode(state.tissue, 0, ode_options(contact_law(contact_distance)), {});
+  const std::span<const double> q(state.values.data(), ode.position_count());
+  std::vector<double> step(q.size(), 1e-3);  // all the same way: nothing changes its length
+  step[i] += 4e-3, step[points + j] -= 3e-3;
+  auto limited = step;
+  ode.limit_step(q, limited);
+  const double rx = limited[j] - limited[i], ry = limited[points + j] - limited[points + i];
+  CHECK(std::hypot(rx, ry) == Approx(0.5e-3));
+  CHECK(rx * (step[points + j] - step[points + i]) == Approx(ry * (step[j] - step[i])));  // shortened, not turned
+  CHECK(limited[i] + limited[j] == Approx(step[i] + step[j]));
+  CHECK(limited[points + i] + limited[points + j] == Approx(step[points + i] + step[points + j]));
+  for (const int k : {i, j, points + i, points + j}) limited[k] = step[k];
+  CHECK(limited == step);
+
+  auto growing = std::vector<double>(q.size(), 0.0);
+  growing[j] = 5e-3;  // six times as long, in the same direction
+  const auto as_it_was = growing;
+  ode.limit_step(q, growing);
+  CHECK(growing == as_it_was);
+}
