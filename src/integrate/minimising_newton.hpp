@@ -1,7 +1,8 @@
-// The nonlinear solver of one implicit step, as a minimisation (docs/explanation/numerics.md). Semi-smooth Newton on
+// The nonlinear solver of one implicit step, as a minimisation (docs/explanation/numerics.md). Solves
 //     F(q) = q - psi + gamma dU/dq = 0
-// with the CURRENT contact set, truncated preconditioned conjugate gradients, and a line search on the directional
-// derivative, so that contacts may switch inside the iteration without failing the step.
+// by preconditioned nonlinear conjugate gradients, which need no second derivatives. Where these tell of contacts that the
+// preconditioner does not know: semi-smooth Newton with the CURRENT contact set, truncated preconditioned conjugate gradients,
+// and a line search on the directional derivative, so that contacts may switch inside the iteration without failing the step.
 #pragma once
 
 #include <cstdint>
