@@ -225,7 +225,7 @@ TEST_CASE("every sweep of this repository can be planned", "[cli][sweep]") {
                                         {"figures/fig4/sweep.toml", 125},
                                         {"figures/fig4/tolerance.toml", 100},
                                         {"figures/fig3/sensitivity.toml", 126},
-                                        {"figures/fig4/sweep_published_code.toml", 50},
+                                        {"figures/fig4/sweep_published_code.toml", 65},
                                         {"emulation/sweep.toml", 85}};
   for (const auto& [file, count] : runs) {
     INFO(file);
