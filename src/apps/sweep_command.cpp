@@ -90,11 +90,15 @@ SweepEnd execute(const Options& options, const SweepFolder& folder, const SweepP
   ProgressLine line;
   SweepEnd end;
   TablesInBetween tables(folder, plan, options.tables_every_s);
+  using Clock = std::chrono::steady_clock;
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  Clock::time_point written = Clock::now();
   const auto report = [&](const SweepProgress& progress) {
     end.progress = progress;
     if (with_tables && !progress.last.empty()) tables.run_ended();
-    // A log wants a line when something has ended, a terminal a living one.
-    if (options.quiet || (progress.last.empty() && isatty(STDERR_FILENO) == 0)) return;
+    // A log wants a line when something has ended, and a sign of life once a minute; a terminal a living one.
+    if (options.quiet || (!terminal && progress.last.empty() && Clock::now() - written < std::chrono::minutes(1))) return;
+    written = Clock::now();
     const int to_do = progress.total - progress.finished_before;
     const double fraction = to_do > 0 ? static_cast<double>(progress.finished - progress.finished_before) / to_do : 1.0;
     line.update("sweep", fraction, fmt::format("{}, {} running{}{}", verdict(progress), progress.running, progress.last.empty() ? "" : "; ", progress.last));

@@ -1,66 +1,56 @@
 // Fig. S5: a cell pulled by a force dipole. At every point of the published table: the final shape parameter by the overdamped
-// motion with both membrane laws, and with unit vertex mass and unit damping, as the published data were made.
+// motion with both membrane laws, with inertia of the vertices, with inertia of vertices and rest lengths, the same from the published
+// start, and by the published scheme step by step.
 #include <memory>
 
 #include "../csv.hpp"
+#include "published_scheme.hpp"
 #include "suture/integrate/integrator.hpp"
 #include "suture/io/config.hpp"
-#include "suture/measure/cell_shape.hpp"
-#include "suture/ode/tissue_ode.hpp"
 #include "suture/physics/constant_load.hpp"
-#include "suture/simulate/cell_experiment.hpp"
 
 using namespace suture;
 using namespace suture::figures;
 
 namespace {
 
-/// The overdamped system with inertia: y = [r | v | l0], dr/dt = v, dv/dt = (F - b v)/m with m = b = 1. TissueOde's rate
-/// of positions is F/b.
+/// Unit mass and unit damping for the first components q of y: y = [all components | velocities], q'' + q' = their overdamped rate.
 class InertialOde final : public OdeSystem {
  public:
-  explicit InertialOde(TissueOde& overdamped)
-      : overdamped_(overdamped), positions_(overdamped.position_count()), y_(overdamped.size()), rate_(overdamped.size()) {}
+  InertialOde(TissueOde& overdamped, int inertial)
+      : overdamped_(overdamped), components_(overdamped.size()), inertial_(inertial), rate_(components_) {}
 
-  int size() const override { return overdamped_.size() + positions_; }
-  int position_count() const override { return positions_; }
+  int size() const override { return components_ + inertial_; }
+  int position_count() const override { return overdamped_.position_count(); }
   std::string refusal() const override { return overdamped_.refusal(); }
   std::string component_name(int i) const override { return fmt::format("component {}", i); }
 
   Evaluation rate(double t, std::span<const double> y, std::span<double> out) override {
-    const int memory = overdamped_.size() - positions_;
-    for (int i = 0; i < positions_; ++i) y_[i] = y[i];
-    for (int i = 0; i < memory; ++i) y_[positions_ + i] = y[2 * positions_ + i];
-    if (const Evaluation result = overdamped_.rate(t, y_, rate_); result != Evaluation::ok) return result;
-    for (int i = 0; i < positions_; ++i) out[i] = y[positions_ + i];
-    for (int i = 0; i < positions_; ++i) out[positions_ + i] = rate_[i] - y[positions_ + i];
-    for (int i = 0; i < memory; ++i) out[2 * positions_ + i] = rate_[positions_ + i];
+    if (const Evaluation result = overdamped_.rate(t, y.first(components_), rate_); result != Evaluation::ok) return result;
+    for (int i = 0; i < components_; ++i) out[i] = i < inertial_ ? y[components_ + i] : rate_[i];
+    for (int i = 0; i < inertial_; ++i) out[components_ + i] = rate_[i] - y[components_ + i];
     return Evaluation::ok;
   }
 
  private:
   TissueOde& overdamped_;
-  int positions_;
-  std::vector<double> y_, rate_;
+  int components_, inertial_;
+  std::vector<double> rate_;
 };
 
-double inertial_shape(const Config& config) {
-  TissueState cell = make_round_cell(config);
-  TissueOdeOptions options{.membrane_law = config.membrane.law, .contact = config.contact};
-  options.contact.distance = cell.tissue.mean_initial_rest_length();
-  const auto load = std::make_shared<ConstantLoad>(dipole_forces(config, cell), std::vector<double>(cell.tissue.vertex_count()));
-  TissueOde overdamped(cell.tissue, 0, options, {load});
-  InertialOde system(overdamped);
-  const int positions = overdamped.position_count();
-  std::vector<double> y(system.size(), 0.0);
-  for (int i = 0; i < positions; ++i) y[i] = cell.values[i];
-  for (int i = positions; i < overdamped.size(); ++i) y[positions + i] = cell.values[i];
+double inertial_shape(const Config& config, TissueState cell, bool rest_lengths) {
+  const int vertices = cell.tissue.vertex_count();
+  std::vector<double> fx(vertices), fy(vertices, 0.0);
+  pull_apart(config.dipole.force, std::span(cell.values).first(vertices), fx);
+  TissueOde overdamped(cell.tissue, 0, dipole_options(config, cell), {std::make_shared<ConstantLoad>(fx, fy)});
+  InertialOde system(overdamped, rest_lengths ? overdamped.size() : overdamped.position_count());
+  std::vector<double> y = cell.values;
+  y.resize(system.size(), 0.0);
   // The fastest vibration has a period of about 0.4; a quarter of this step changes the shape by less than 1e-5.
   const IntegratorOptions method{.method = Method::rk4, .time_step = 0.02};
   const auto integrator = make_integrator(system, method, 0.0, y);
   while (integrator->time() < config.dipole.duration) integrator->step(config.dipole.duration);
-  const auto end = integrator->state();
-  for (int i = 0; i < positions; ++i) cell.values[i] = end[i];
+  for (std::size_t i = 0; i < cell.values.size(); ++i) cell.values[i] = integrator->state()[i];
   return cell_shapes(cell.tissue, cell.view()).front().shape_parameter();
 }
 
@@ -78,13 +68,15 @@ int main(int argc, char** argv) {
     Config config = read_config(published / "../../examples/dipole.toml");
     config.output.interval = config.output.frame_interval = 100.0;
     config.integrator.tolerance = config.integrator.rest_length_tolerance = 1e-5;
-    CsvFile file(out / "dipole.csv", "k_a,tau,tau_over_T,published,relative,quadratic,inertial");
+    CsvFile file(out / "dipole.csv", "k_a,tau,tau_over_T,published,relative,quadratic,vertex_inertia,inertia,published_start,published_scheme");
     for (const CsvRow& row : read_csv(published / "figS5_dipole.csv")) {
       config.area.stiffness = number(row, "ka_star");
       config.plasticity.tau = number(row, "tau_star");
       config.dipole.duration = number(row, "t_last");
       file.row(config.area.stiffness, config.plasticity.tau, number(row, "tau_over_T_nominal500"), number(row, "shape_A_T"),
-               overdamped_shape(config, SpringLaw::relative), overdamped_shape(config, SpringLaw::quadratic), inertial_shape(config));
+               overdamped_shape(config, SpringLaw::relative), overdamped_shape(config, SpringLaw::quadratic),
+               inertial_shape(config, make_round_cell(config), false), inertial_shape(config, make_round_cell(config), true),
+               inertial_shape(config, published_start(config), true), published_dipole(config).shape_parameter());
     }
   });
 }
