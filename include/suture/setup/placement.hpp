@@ -12,7 +12,7 @@ namespace suture {
 /// Discs of given radii in a circle around the origin.
 struct DiscPlacement {
   std::vector<double> x, y;
-  double deepest_overlap = 0.0;  ///< largest (r_i + r_j - d_ij), or (r_i + r - R) at the wall; <= 0: none touch
+  double deepest_overlap = 0.0;  ///< largest (r_i + r_j - d_ij) of neighbours, or (r_i + r - R) at the wall; <= 0: none touch
 };
 
 /// Random centres, spread by minimising the soft overlaps sum (1 - d/(r_i + r_j))^2 (wall: (1 - (R - r)/r_i)^2).
