@@ -1,5 +1,5 @@
 // Fig. S5 as its authors computed it, step by step: their start, their equations of motion and their order of operations,
-// found by comparison with their table, all 92 rows of which come out to its last digit. For validation only.
+// found by comparison with their table, all 92 areas and perimeters of which come out to its last digit. For validation only.
 #pragma once
 
 #include <cmath>
