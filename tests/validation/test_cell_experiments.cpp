@@ -119,7 +119,7 @@ TEST_CASE("dipole: final shapes are the published ones", "[validation]") {
 TEST_CASE("dipole: the published scheme gives the published digits", "[validation]") {
   int compared = 0;
   for (const PublishedDipole& point : published_dipoles()) {
-    if (point.area_stiffness > 1.0) continue;  // their step falls as 1/sqrt(k_a): minutes in a debug build
+    if (point.area_stiffness > 1.0) continue;  // their step falls as 1/sqrt(k_a): millions of them
     const CellShape cell = figures::published_dipole(dipole(point, SpringLaw::relative));
     INFO("k_a = " << point.area_stiffness << ", tau = " << point.tau);
     const bool thread = point.shape_parameter > 10.0;  // amplifies the rounding of its start

@@ -39,10 +39,8 @@ class InertialOde final : public OdeSystem {
 };
 
 double inertial_shape(const Config& config, TissueState cell, bool rest_lengths) {
-  const int vertices = cell.tissue.vertex_count();
-  std::vector<double> fx(vertices), fy(vertices, 0.0);
-  pull_apart(config.dipole.force, std::span(cell.values).first(vertices), fx);
-  TissueOde overdamped(cell.tissue, 0, dipole_options(config, cell), {std::make_shared<ConstantLoad>(fx, fy)});
+  const auto load = std::make_shared<ConstantLoad>(dipole_forces(config, cell), std::vector<double>(cell.tissue.vertex_count()));
+  TissueOde overdamped(cell.tissue, 0, dipole_options(config, cell), {load});
   InertialOde system(overdamped, rest_lengths ? overdamped.size() : overdamped.position_count());
   std::vector<double> y = cell.values;
   y.resize(system.size(), 0.0);
@@ -68,15 +66,18 @@ int main(int argc, char** argv) {
     Config config = read_config(published / "../../examples/dipole.toml");
     config.output.interval = config.output.frame_interval = 100.0;
     config.integrator.tolerance = config.integrator.rest_length_tolerance = 1e-5;
-    CsvFile file(out / "dipole.csv", "k_a,tau,tau_over_T,published,relative,quadratic,vertex_inertia,inertia,published_start,published_scheme");
+    CsvFile file(out / "dipole.csv", "k_a,tau,tau_over_T,published,relative,quadratic,vertex_inertia,inertia,published_start,published_scheme,"
+                                    "published_area,published_perimeter,scheme_area,scheme_perimeter");
     for (const CsvRow& row : read_csv(published / "figS5_dipole.csv")) {
       config.area.stiffness = number(row, "ka_star");
       config.plasticity.tau = number(row, "tau_star");
       config.dipole.duration = number(row, "t_last");
+      const CellShape scheme = published_dipole(config);
       file.row(config.area.stiffness, config.plasticity.tau, number(row, "tau_over_T_nominal500"), number(row, "shape_A_T"),
                overdamped_shape(config, SpringLaw::relative), overdamped_shape(config, SpringLaw::quadratic),
                inertial_shape(config, make_round_cell(config), false), inertial_shape(config, make_round_cell(config), true),
-               inertial_shape(config, published_start(config), true), published_dipole(config).shape_parameter());
+               inertial_shape(config, published_start(config), true), scheme.shape_parameter(), number(row, "area_T"),
+               number(row, "perimeter_T"), scheme.area, scheme.perimeter);
     }
   });
 }

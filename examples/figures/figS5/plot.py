@@ -30,3 +30,6 @@ for name in ["relative", "quadratic", "vertex_inertia", *list(VARIANTS)[1:]]:
     parts = [max(abs(r[name] - r["published"]) for r in rows if low <= r["tau_over_T"] < high) for low, high in [(0.02, 1e9), (0.01, 0.02), (0.0, 0.01)]]
     far = sum(abs(r[name] - r["published"]) > 0.02 for r in rows)
     print(f"{name}: largest difference {parts[0]:.6f} at tau/T >= 0.02, {parts[1]:.6f} at 0.01, {parts[2]:.6f} below; {far} of {len(rows)} beyond 0.02")
+for name in ["area", "perimeter"]:
+    differences = sorted((abs(r[f"scheme_{name}"] - r[f"published_{name}"]) for r in rows), reverse=True)
+    print(f"{name} by the published scheme: largest differences {', '.join(f'{d:.6f}' for d in differences[:5])}")

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <span>
 #include <vector>
 
 #include "suture/errors.hpp"
@@ -31,13 +30,6 @@ inline TissueState published_start(const Config& config) {
   return cell;
 }
 
-/// -force on every vertex left of the mean of all, +force on every other; into forces[0 .. vertices).
-inline void pull_apart(double force, std::span<const double> x, std::span<double> forces) {
-  double centre = 0.0;
-  for (const double each : x) centre += each / static_cast<double>(x.size());
-  for (std::size_t v = 0; v < x.size(); ++v) forces[v] = x[v] < centre ? -force : force;
-}
-
 inline TissueOdeOptions dipole_options(const Config& config, const TissueState& cell) {
   TissueOdeOptions options{.membrane_law = config.membrane.law, .contact = config.contact};
   options.contact.distance = cell.tissue.mean_initial_rest_length();
@@ -53,7 +45,7 @@ inline CellShape published_dipole(const Config& config) {
   const int n = cell.tissue.vertex_count(), positions = 2 * n, size = ode.size();
   const double h = 0.01 * cell.tissue.mean_initial_rest_length() / std::sqrt(config.area.stiffness);
   std::vector<double>& y = cell.values;
-  std::vector<double> velocity(size, 0.0), acceleration(size, 0.0), rate(size), pull(n);
+  std::vector<double> velocity(size, 0.0), acceleration(size, 0.0), rate(size);
   const auto move = [&](int k) { return h * (velocity[k] + 0.5 * h * acceleration[k]); };
   const auto accelerate = [&](int k, double force) {
     const double half_way = velocity[k] + 0.5 * h * acceleration[k];
@@ -63,7 +55,7 @@ inline CellShape published_dipole(const Config& config) {
   for (long steps = std::lround(config.dipole.duration / h); steps > 0; --steps) {
     for (int k = 0; k < positions; ++k) y[k] += move(k);
     if (ode.rate(0.0, y, rate) != Evaluation::ok) throw NumericalError(ode.refusal());
-    pull_apart(config.dipole.force, std::span(y).first(n), pull);
+    const std::vector<double> pull = dipole_forces(config, cell);  // follows the centre of the vertices
     for (int k = positions; k < size; ++k) {
       const double moved = move(k);
       y[k] += moved;
