@@ -24,7 +24,9 @@ constexpr std::array tether_laws{
     choice("ramp", TetherLaw::ramp, "f = k_p l up to l_y/2, then linearly back to zero at l_y; continuous"),
 };
 constexpr std::array capture_laws{
-    choice("split", CaptureLaw::split, "the split spring's rest length is halved and its tension kept"),
+    choice("tension_kept", CaptureLaw::tension_kept, "both halves get the rest length with which they carry the tension of the split spring"),
+    choice("split", CaptureLaw::split,
+           "the split spring's rest length is halved; a vertex beside the spring stretches the halves and raises their tension"),
     choice("tension_free", CaptureLaw::tension_free, "both halves start without tension"),
     choice("slip", CaptureLaw::slip, "halves the wrong spring, as the published simulations did; for their fixed steps: methods with error control crawl or fail at it"),
 };

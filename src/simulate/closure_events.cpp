@@ -163,14 +163,15 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbo
 }
 
 bool ClosureEvents::capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log) {
-  if (parameters_.capture_search == CaptureSearch::published) return search_.capture(state, parameters_.capture_law, log);
+  const CaptureRule rule{parameters_.capture_law, parameters_.law};
+  if (parameters_.capture_search == CaptureSearch::published) return search_.capture(state, rule, log);
   const std::optional<Wound>& wound = edge.update(state.tissue, state.view());
   seen_exposed_ = edge.exposed_at_update();
   if (!wound) return false;
   const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
   const std::vector<Capture> captured = captures(state, boundary);
   if (captured.empty()) return false;
-  state = capture_vertices(std::move(state), captured, parameters_.capture_law);
+  state = capture_vertices(std::move(state), captured, rule);
   for (const Capture& c : captured) log.push_back(event_record(state, EventKind::capture, c.vertex));
   return true;
 }

@@ -38,14 +38,14 @@ bool PublishedSearch::offers_untethered(const PurseString& string) const {
   });
 }
 
-bool PublishedSearch::capture(TissueState& state, CaptureLaw law, std::vector<EventRecord>& log) const {
+bool PublishedSearch::capture(TissueState& state, const CaptureRule& rule, std::vector<EventRecord>& log) const {
   bool any = false;
   for (const int v : vertices_) {
     const std::vector<int>& ring = state.purse_string.vertex;
     if (std::find(ring.begin(), ring.end(), v) != ring.end()) continue;
     const std::optional<int> after = published_insertion(state, v);
     if (!after) continue;
-    state = capture_vertices(std::move(state), {{v, *after}}, law);
+    state = capture_vertices(std::move(state), {{v, *after}}, rule);
     log.push_back(event_record(state, EventKind::capture, v));
     any = true;
   }

@@ -7,6 +7,7 @@
 
 #include "suture/measure/grid_wound.hpp"
 #include "suture/ode/purse_string_events.hpp"
+#include "suture/physics/purse_string_operations.hpp"
 
 namespace suture {
 
@@ -20,7 +21,7 @@ class PublishedSearch {
   /// Whether it is time for an offer and some vertex of the list has no tether.
   bool offers_untethered(const PurseString& string) const;
   /// Offers them to the ring, one after the other; true if any was captured.
-  bool capture(TissueState& state, CaptureLaw law, std::vector<EventRecord>& log) const;
+  bool capture(TissueState& state, const CaptureRule& rule, std::vector<EventRecord>& log) const;
 
   template <class Archive>
   void fields(Archive& archive) {

@@ -26,7 +26,8 @@ enum class TetherLaw {
 
 /// What a captured vertex does to the chain spring it splits.
 enum class CaptureLaw {
-  split,         ///< the split spring's rest length is halved, its tension kept
+  split,         ///< the split spring's rest length is halved; the tension rises with the detour over the new vertex
+  tension_kept,  ///< both halves share the extension of the split spring: its tension, whatever the detour
   tension_free,  ///< both halves start without tension
   slip,          ///< published slip: the spring AFTER the new vertex's successor is halved instead
 };
@@ -130,7 +131,7 @@ struct PurseStringParameters {
   double tether_stiffness = 4.0;       ///< k_p
   TetherLaw tether_law = TetherLaw::saturating_energy;
   double yield_length = 2.0;           ///< l_y, in units of s
-  CaptureLaw capture_law = CaptureLaw::split;
+  CaptureLaw capture_law = CaptureLaw::tension_kept;
   bool capture = true;
   CaptureSearch capture_search = CaptureSearch::boundary;
   int search_steps = 500;              ///< integrator steps between flood fills of CaptureSearch::published

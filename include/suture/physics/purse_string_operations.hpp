@@ -58,16 +58,24 @@ std::vector<Capture> captures(const TissueState& state, const std::vector<int>& 
 /// nothing when they refuse it. `vertex` is not in the ring. For CaptureSearch::published.
 std::optional<int> published_insertion(const TissueState& state, int vertex);
 
+/// What a capture does to the spring it splits, and the elastic law of the springs, which tension_kept depends on.
+struct CaptureRule {
+  CaptureLaw law = CaptureLaw::tension_kept;
+  SpringLaw springs = SpringLaw::quadratic;
+};
+
 /// Inserts the captured vertices at the positions of their cell vertices, attached. The springs, with lambda0 their
 /// rest lengths now and m captures in the same spring:
-///   split         m + 1 parts of rest length lambda0/(m + 1) and reference_length/sqrt(m + 1): (m + 1) times as stiff,
-///                 so that equal parts of the length carry the tension of the whole (quadratic law; the relative law
-///                 keeps the strain);
+///   split         m + 1 parts of rest length lambda0/(m + 1) and reference_length/sqrt(m + 1): (m + 1) times as stiff
+///                 (quadratic law), so that equal parts of the length would carry the tension of the whole. A vertex
+///                 beside the spring makes the parts longer, and the tension rises;
+///   tension_kept  as split, but each part's rest length is such that it carries the tension of the whole, at least
+///                 minimum_rest_length; with the quadratic law extension and energy stay what they were too;
 ///   tension_free  as split, but each part's rest length is its actual length;
 ///   slip          one capture after the other: the split spring keeps everything, its rest length included; the
 ///                 spring after the new vertex's successor is halved, and the new vertex's own spring to its successor
 ///                 is the other half (a slip of the published simulations).
-TissueState capture_vertices(TissueState state, const std::vector<Capture>& captures, CaptureLaw law);
+TissueState capture_vertices(TissueState state, const std::vector<Capture>& captures, const CaptureRule& rule);
 
 /// Tether length l of ring vertex j, model units.
 double tether_length(const PurseString& purse_string, const StateView& state, int j);

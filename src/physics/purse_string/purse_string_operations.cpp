@@ -76,15 +76,28 @@ void insert_vertex(Ring& ring, int j, int vertex, const ChainSpring& spring, con
   ring.y.insert(ring.y.begin() + j + 1, cells.y[vertex]);
 }
 
-/// CaptureLaw::split and tension_free: all captures of one spring j at once.
-void split_spring(Ring& ring, int j, std::span<const Capture> group, CaptureLaw law, const StateView& cells, double t) {
-  const int count = static_cast<int>(group.size());
-  const ChainSpring part = part_of(ring.string, j, count + 1, t);
+/// Rest length with which one of `parts` springs, `length` long, carries the tension of the whole, whose length and rest
+/// length are `whole` and `rest`. The quadratic law shares the extension. The relative law, whose parts are as stiff as
+/// the whole, solves (length/x - 1)/x = (whole/rest - 1)/rest; beyond the most it can be compressed, it is compressed as far.
+double tense_length(SpringLaw law, double length, double whole, double rest, int parts) {
+  if (law == SpringLaw::quadratic) return length - (whole - rest) / parts;
+  const double tension = (whole / rest - 1.0) / rest;
+  return 2.0 * length / (1.0 + std::sqrt(std::max(0.0, 1.0 + 4.0 * tension * length)));
+}
+
+/// All captures of one spring j at once, but for CaptureLaw::slip.
+void split_spring(Ring& ring, int j, std::span<const Capture> group, const CaptureRule& rule, const StateView& cells, double t) {
+  const int count = static_cast<int>(group.size()), parts = count + 1;
+  const double whole = distance(ring, j, (j + 1) % ring.string.size()), rest = ring.string.rest_length(j, t);
+  const ChainSpring part = part_of(ring.string, j, parts, t);
   ring.string.spring[j] = part;
   for (int k = 0; k < count; ++k) insert_vertex(ring, j + k, group[k].vertex, part, cells);
-  if (law != CaptureLaw::tension_free) return;
-  for (int k = j; k <= j + count; ++k)
-    ring.string.spring[k].rest_length = distance(ring, k, (k + 1) % ring.string.size());
+  if (rule.law == CaptureLaw::split) return;
+  for (int k = j; k <= j + count; ++k) {
+    const double length = distance(ring, k, (k + 1) % ring.string.size());
+    const double free = rule.law == CaptureLaw::tension_free ? length : tense_length(rule.springs, length, whole, rest, parts);
+    ring.string.spring[k].rest_length = std::max(free, ring.string.minimum_rest_length);
+  }
 }
 
 /// CaptureLaw::slip.
@@ -156,7 +169,7 @@ TissueState yield_tethers(TissueState state, const std::vector<int>& ring_indice
   return with_ring(std::move(state), std::move(ring));
 }
 
-TissueState capture_vertices(TissueState state, const std::vector<Capture>& captures, CaptureLaw law) {
+TissueState capture_vertices(TissueState state, const std::vector<Capture>& captures, const CaptureRule& rule) {
   if (captures.empty()) return state;
   SUTURE_EXPECTS(!state.purse_string.empty());
   Ring ring = take_ring(state);
@@ -168,10 +181,10 @@ TissueState capture_vertices(TissueState state, const std::vector<Capture>& capt
   int inserted = 0;
   for (auto begin = ordered.begin(); begin != ordered.end();) {
     const auto end = std::find_if(begin, ordered.end(), [&](const Capture& c) { return c.after != begin->after; });
-    if (law == CaptureLaw::slip)
+    if (rule.law == CaptureLaw::slip)
       for (auto c = begin; c != end; ++c) insert_with_slip(ring, c->after + inserted++, *c, cells, state.time);
     else {
-      split_spring(ring, begin->after + inserted, {begin, end}, law, cells, state.time);
+      split_spring(ring, begin->after + inserted, {begin, end}, rule, cells, state.time);
       inserted += static_cast<int>(end - begin);
     }
     begin = end;

@@ -77,7 +77,7 @@ TEST_CASE("a vertex that the boundary passes twice is captured once", "[unit]") 
 TEST_CASE("captures are inserted where they were placed", "[unit]") {
   TissueState state = with_string(ring_parameters());  // 0, 3, 6, ..., 39
   const std::vector<int> boundary{38, 39, 0, 1, 2, 3, 6, 9, 10, 12, 15, 18, 21, 24, 27, 30, 33, 36, 37};
-  state = capture_vertices(std::move(state), captures(state.purse_string, boundary), CaptureLaw::split);
+  state = capture_vertices(std::move(state), captures(state.purse_string, boundary), {CaptureLaw::split});
   std::vector<int> turned = boundary;
   std::rotate(turned.begin(), turned.begin() + 2, turned.end());  // the ring starts at vertex 0
   CHECK(state.purse_string.vertex == turned);

@@ -189,10 +189,10 @@ TEST_CASE("a capture puts a vertex at its cell vertex, between its neighbours", 
   const TissueState before = used_string();
   const PurseString& old = before.purse_string;
   const int V = before.tissue.vertex_count();
-  for (const CaptureLaw law : {CaptureLaw::split, CaptureLaw::tension_free, CaptureLaw::slip})
+  for (const CaptureLaw law : {CaptureLaw::split, CaptureLaw::tension_kept, CaptureLaw::tension_free, CaptureLaw::slip})
     for (const int after_index : {0, 4, old.size() - 1}) {
       const int vertex = 2;
-      const TissueState after = capture_vertices(before, {{vertex, after_index}}, law);
+      const TissueState after = capture_vertices(before, {{vertex, after_index}}, {law});
       const PurseString& ring = after.purse_string;
       check_carried_over(before, after);
       REQUIRE(ring.size() == old.size() + 1);
@@ -216,23 +216,23 @@ TEST_CASE("capture laws treat the split spring as defined", "[unit]") {
   const double t = before.time, lambda = old.rest_length(j, t), reference = old.spring[j].reference_length;
   REQUIRE(lambda < old.spring[j].rest_length);
 
-  const PurseString split = capture_vertices(before, {{2, j}}, CaptureLaw::split).purse_string;
+  const PurseString split = capture_vertices(before, {{2, j}}, {CaptureLaw::split}).purse_string;
   for (const int k : {j, j + 1}) {
     CHECK(split.rest_length(k, t) == Approx(0.5 * lambda));
     CHECK(split.spring[k].start_time == t);
     CHECK(split.spring[k].reference_length == Approx(reference / std::sqrt(2.0)));
   }
-  const TissueState free = capture_vertices(before, {{2, j}}, CaptureLaw::tension_free);
+  const TissueState free = capture_vertices(before, {{2, j}}, {CaptureLaw::tension_free});
   for (const int k : {j, j + 1})
     CHECK(free.purse_string.rest_length(k, t) == Approx(point_distance(free, V + k, V + k + 1)));
 
-  const PurseString slip = capture_vertices(before, {{2, j}}, CaptureLaw::slip).purse_string;
+  const PurseString slip = capture_vertices(before, {{2, j}}, {CaptureLaw::slip}).purse_string;
   CHECK(same(slip.spring[j], old.spring[j]));
   CHECK(slip.rest_length(j + 1, t) == Approx(0.5 * old.rest_length(j + 1, t)));
   CHECK(slip.rest_length(j + 2, t) == Approx(0.5 * old.rest_length(j + 1, t)));
   // Behind the last vertex the spring after the successor is the ring's first.
   const int last = old.size() - 1;
-  const PurseString seam = capture_vertices(before, {{2, last}}, CaptureLaw::slip).purse_string;
+  const PurseString seam = capture_vertices(before, {{2, last}}, {CaptureLaw::slip}).purse_string;
   CHECK(seam.rest_length(0, t) == Approx(0.5 * old.rest_length(0, t)));
   CHECK(same(seam.spring[last], old.spring[last]));
 }
@@ -241,7 +241,7 @@ TEST_CASE("several captures in one spring share it, in order", "[unit]") {
   const TissueState before = used_string();
   const PurseString& old = before.purse_string;
   const double t = before.time;
-  const TissueState after = capture_vertices(before, {{10, 7}, {2, 1}, {1, 1}, {4, 1}}, CaptureLaw::split);
+  const TissueState after = capture_vertices(before, {{10, 7}, {2, 1}, {1, 1}, {4, 1}}, {CaptureLaw::split});
   const PurseString& ring = after.purse_string;
   check_carried_over(before, after);
   const std::vector<int> start(ring.vertex.begin(), ring.vertex.begin() + 6);
@@ -252,7 +252,7 @@ TEST_CASE("several captures in one spring share it, in order", "[unit]") {
     CHECK(ring.spring[k].reference_length == Approx(old.spring[1].reference_length / 2));
   }
   CHECK(compliance(ring) == Approx(compliance(old)).epsilon(1e-14));
-  const PurseString slipped = capture_vertices(before, {{2, 1}, {1, 1}}, CaptureLaw::slip).purse_string;
+  const PurseString slipped = capture_vertices(before, {{2, 1}, {1, 1}}, {CaptureLaw::slip}).purse_string;
   CHECK(slipped.rest_length(4, t) == Approx(old.rest_length(2, t) / 4));  // halved again and again
   CHECK(same(slipped.spring[1], old.spring[1]));
 }
@@ -263,7 +263,7 @@ TEST_CASE("breaking and recapturing a tether leaves the chain as stiff as before
   double worst = 0.0;
   for (int cycle = 0; cycle < 50; ++cycle) {
     state = yield_tethers(std::move(state), {4});
-    state = capture_vertices(std::move(state), {{old.vertex[4], 3}}, CaptureLaw::split);
+    state = capture_vertices(std::move(state), {{old.vertex[4], 3}}, {CaptureLaw::split});
     worst = std::max(worst, std::abs(compliance(state.purse_string) / compliance(old) - 1.0));
   }
   CHECK(state.purse_string.vertex == old.vertex);
@@ -274,6 +274,6 @@ TEST_CASE("operations with nothing to do do not touch the vector", "[unit]") {
   TissueState state = used_string();
   const double* data = state.values.data();
   state = yield_tethers(std::move(state), {});
-  state = capture_vertices(std::move(state), {}, CaptureLaw::split);
+  state = capture_vertices(std::move(state), {}, {CaptureLaw::split});
   CHECK(state.values.data() == data);
 }

@@ -43,7 +43,7 @@ TEST_CASE("vertices are looked for at every third step and offered to the ring a
   REQUIRE(search.offers_untethered(state.purse_string));
 
   std::vector<EventRecord> log;
-  CHECK(search.capture(state, CaptureLaw::split, log));
+  CHECK(search.capture(state, {CaptureLaw::split}, log));
   CHECK(state.purse_string.size() == before + static_cast<int>(log.size()));
   CHECK(log.size() >= static_cast<std::size_t>(before) / 4);
   CHECK(std::is_sorted(log.begin(), log.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; }));
@@ -53,7 +53,7 @@ TEST_CASE("vertices are looked for at every third step and offered to the ring a
   state = yield_tethers(std::move(state), {5}, GapLaw::first);
   CHECK(search.step(0.4, state, state.view()));
   log.clear();
-  CHECK(search.capture(state, CaptureLaw::slip, log));
+  CHECK(search.capture(state, {CaptureLaw::slip}, log));
   CHECK(std::any_of(log.begin(), log.end(), [&](const EventRecord& e) { return e.vertex == broken && e.kind == EventKind::capture; }));
 }
 
@@ -74,8 +74,8 @@ TEST_CASE("a search that is saved and read goes on alike", "[unit]") {
   CHECK(a.bytes() == b.bytes());
   std::vector<EventRecord> log, other_log;
   TissueState copy = state;
-  search.capture(state, CaptureLaw::slip, log);
-  other.capture(copy, CaptureLaw::slip, other_log);
+  search.capture(state, {CaptureLaw::slip}, log);
+  other.capture(copy, {CaptureLaw::slip}, other_log);
   CHECK(log == other_log);
   CHECK(state.values == copy.values);
 }
