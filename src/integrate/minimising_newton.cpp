@@ -131,9 +131,20 @@ void MinimisingNewton::conjugate_gradients(double fz, double target) {
   if (fresh_linear_ == 0) fresh_linear_ = iteration;
 }
 
+/// Shortening the step at some segments only may turn it uphill; then all of it is shortened.
+void MinimisingNewton::limit_step() {
+  const VectorOperations& k = operations_;
+  constexpr double least_descent = 0.3;  // of that of the step as it was
+  const double descent = k.dot(padded_, f_, d_);
+  std::copy_n(d_, n_, ap_);
+  system_->limit_step(span(q_), span(d_));
+  if (!(k.dot(padded_, f_, d_) <= least_descent * descent))
+    k.linear_sum(padded_, system_->step_limit(span(q_), span(ap_)), ap_, 0.0, ap_, d_);
+}
+
 bool MinimisingNewton::line_search() {
   const VectorOperations& k = operations_;
-  system_->limit_step(span(q_), span(d_));
+  limit_step();
   const double longest = largest(d_);
   if (longest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / longest, d_, 0.0, d_, d_);
   const double slope = k.dot(padded_, f_, d_);
@@ -146,14 +157,21 @@ bool MinimisingNewton::line_search() {
       continue;
     }
     const double end = k.dot(padded_, r_, d_);
-    if (end <= 0.5 * std::abs(slope) || step < 1e-4 || attempt == 7) {
+    if (end <= 0.5 * std::abs(slope)) {
       std::swap(q_, trial_);
       std::swap(f_, r_);
       return true;
     }
+    if (step < 1e-4) break;
     step *= std::clamp(-slope / (end - slope), 1e-2, 0.9);
   }
   return false;
+}
+
+/// A segment that shrinks to nothing leaves the potential without a gradient to vanish: what has not been reached after
+/// many iterations is not reached by more of them, and the shorter step that a failure asks for has the same trouble.
+double MinimisingNewton::allowance(int iteration) {
+  return iteration < 6 ? 1.0 : iteration < 10 ? 3.0 : 6.0;
 }
 
 NewtonResult MinimisingNewton::failed() {
@@ -192,7 +210,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   for (int iteration = 0;; ++iteration) {
     const double error = norm(fz);
     const bool last = iteration == options_.maximum_iterations;
-    if (error <= wanted || (last && error <= 6.0 * wanted)) {
+    if (error <= allowance(iteration) * wanted) {
       k.linear_sum(padded_, 1.0, q_, -1.0, z_, q_);  // a free correction, already paid for
       std::copy_n(q_, n_, q.data());
       return NewtonResult::converged;

@@ -70,6 +70,10 @@ class MinimisingNewton {
   bool secants(double& fz, double wanted);
   /// d <- approximate solution of (I + gamma H) d = -f; z_ holds P^-1 f.
   void conjugate_gradients(double fz, double target);
+  /// Keeps d_ within the range of the linearisation, downhill.
+  void limit_step();
+  /// How many times the wanted error is accepted after so many Newton iterations.
+  static double allowance(int iteration);
   /// Moves q_ along d_; false when no acceptable state was found.
   bool line_search();
 

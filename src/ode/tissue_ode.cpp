@@ -193,26 +193,46 @@ void TissueOde::precondition(std::span<const double> r, std::span<double> z) {
     impl_->preconditioner.apply(r, z, impl_->workers);
 }
 
-/// A collapsed segment is soon turned round or shortened away, and its direction is far from linear in the positions of its ends.
-/// Only the motion of the ends relative to each other is limited, so that one such segment does not hold up the tissue. A segment
-/// that keeps its direction within 60 degrees and half its length may change as it likes.
+namespace {
+
+/// The factor by which the ends of segment i, j should move less relative to each other than the step d says; 1 mostly. A
+/// collapsed segment is soon turned round or shortened away, and its direction is far from linear in the positions of its
+/// ends. One that keeps its direction within 60 degrees and half its length may change as it likes.
+double segment_limit(std::span<const double> q, std::span<const double> d, int i, int j) {
+  constexpr double most = 0.5;  // of its length is what the ends may move otherwise
+  const std::size_t points = q.size() / 2;
+  const double ex = q[j] - q[i], ey = q[points + j] - q[points + i];
+  const double rx = d[j] - d[i], ry = d[points + j] - d[points + i];
+  const double length2 = ex * ex + ey * ey, change2 = rx * rx + ry * ry;
+  const double along = length2 + ex * rx + ey * ry;  // the segment as it is times as it would be
+  const double after2 = length2 + 2.0 * (ex * rx + ey * ry) + change2;
+  if (!(change2 > most * most * length2) || (along > 0.5 * length2 && along * along > 0.25 * length2 * after2)) return 1.0;
+  return most * std::sqrt(length2 / change2);
+}
+
+}  // namespace
+
+/// Only the motion of the ends relative to each other is limited, so that one such segment does not hold up the tissue.
 void TissueOde::limit_step(std::span<const double> q, std::span<double> d) const {
-  constexpr double most = 0.5;  // of its length is what a segment's ends may move relative to each other otherwise
   const Tissue& tissue = impl_->tissue;
   const std::size_t points = q.size() / 2;
-  const double *x = q.data(), *y = x + points;
-  double *dx = d.data(), *dy = dx + points;
   for (int c = 0; c < tissue.cell_count(); ++c)
     for (int i = tissue.end_vertex(c) - 1, j = tissue.first_vertex(c); j < tissue.end_vertex(c); i = j++) {
-      const double ex = x[j] - x[i], ey = y[j] - y[i], rx = dx[j] - dx[i], ry = dy[j] - dy[i];
-      const double length2 = ex * ex + ey * ey, change2 = rx * rx + ry * ry;
-      const double along = length2 + ex * rx + ey * ry;  // the segment as it is times as it would be
-      const double after2 = length2 + 2.0 * (ex * rx + ey * ry) + change2;
-      if (!(change2 > most * most * length2) || (along > 0.5 * length2 && along * along > 0.25 * length2 * after2)) continue;
-      const double excess = 0.5 * (1.0 - most * std::sqrt(length2 / change2));
-      dx[i] += excess * rx, dy[i] += excess * ry;
-      dx[j] -= excess * rx, dy[j] -= excess * ry;
+      const double limit = segment_limit(q, d, i, j);
+      if (limit == 1.0) continue;
+      const double x = 0.5 * (1.0 - limit) * (d[j] - d[i]), y = 0.5 * (1.0 - limit) * (d[points + j] - d[points + i]);
+      d[i] += x, d[points + i] += y;
+      d[j] -= x, d[points + j] -= y;
     }
+}
+
+double TissueOde::step_limit(std::span<const double> q, std::span<const double> d) const {
+  const Tissue& tissue = impl_->tissue;
+  double limit = 1.0;
+  for (int c = 0; c < tissue.cell_count(); ++c)
+    for (int i = tissue.end_vertex(c) - 1, j = tissue.first_vertex(c); j < tissue.end_vertex(c); i = j++)
+      limit = std::min(limit, segment_limit(q, d, i, j));
+  return limit;
 }
 
 void TissueOde::recover_memory(std::span<const double> q, std::span<double> memory) {

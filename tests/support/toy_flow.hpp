@@ -12,7 +12,7 @@ namespace suture::test {
 
 /// q_k' = -stiffness_k q_k of `size` positions and one rest length that does not move. `fault` is asked at every
 /// evaluation, rate or residual, and may refuse it or throw.
-class ToyFlow final : public GradientFlowSystem {
+class ToyFlow : public GradientFlowSystem {
  public:
   explicit ToyFlow(int size, std::function<Evaluation(std::span<const double> q)> fault = {})
       : size_(size), fault_(std::move(fault)) {}

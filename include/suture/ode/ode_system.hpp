@@ -53,6 +53,8 @@ class GradientFlowSystem : public OdeSystem {
   virtual void precondition(std::span<const double> r, std::span<double> z) = 0;
   /// Takes from the step d at q what would go beyond the range in which the residual is near its linearisation.
   virtual void limit_step(std::span<const double> /*q*/, std::span<double> /*d*/) const {}
+  /// The factor, at most 1, by which d would have to be shortened as a whole for the same purpose.
+  virtual double step_limit(std::span<const double> /*q*/, std::span<const double> /*d*/) const { return 1.0; }
   /// Rest lengths that belong to q, into memory (length size() - position_count()).
   virtual void recover_memory(std::span<const double> q, std::span<double> memory) = 0;
 };

@@ -53,6 +53,7 @@ class TissueOde final : public GradientFlowSystem {
   void set_up_preconditioner() override;
   void precondition(std::span<const double> r, std::span<double> z) override;
   void limit_step(std::span<const double> q, std::span<double> d) const override;
+  double step_limit(std::span<const double> q, std::span<const double> d) const override;
   void recover_memory(std::span<const double> q, std::span<double> memory) override;
 
   /// Verlet-list rebuilds so far.

@@ -145,3 +145,19 @@ TEST_CASE("a quadratic problem is solved to the last digit asked for", "[unit]")
   for (int k = 0; k < 4; ++k) CHECK(q[k] == Approx(1.0 / (1.0 + gamma * toy.stiffness(k))).margin(1e-9));
   CHECK(newton.counts().setups == 1);
 }
+
+TEST_CASE("a step that its limits turn uphill is shortened as a whole instead", "[unit]") {
+  struct Uphill final : ToyFlow {
+    using ToyFlow::ToyFlow;
+    void limit_step(std::span<const double>, std::span<double> d) const override {
+      for (double& c : d) c = -c;
+    }
+    double step_limit(std::span<const double>, std::span<const double>) const override { return 0.5; }
+  } flow(6);
+  const std::vector<double> psi{1, 2, 3, 4, 5, 6, 1};
+  flow.begin_implicit_step(0.0, 0.5, psi);
+  MinimisingNewton newton(flow, {.weight = 1e4, .largest_move = 100.0, .maximum_secants = 0});
+  std::vector<double> q(psi.begin(), psi.begin() + 6);
+  REQUIRE(newton.solve(0.5, q, generous) == NewtonResult::converged);
+  for (std::size_t k = 0; k < q.size(); ++k) CHECK(q[k] == Approx(psi[k] / (1.0 + 0.5 * flow.stiffness(k))).epsilon(1e-3));
+}

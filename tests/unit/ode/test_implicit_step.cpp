@@ -195,10 +195,12 @@ TEST_CASE("a step that would turn a collapsed segment round is shortened there a
   CHECK(limited[points + i] + limited[points + j] == Approx(step[points + i] + step[points + j]));
   for (const int k : {i, j, points + i, points + j}) limited[k] = step[k];
   CHECK(limited == step);
+  CHECK(ode.step_limit(q, step) == Approx(0.5e-3 / std::hypot(step[j] - step[i], step[points + j] - step[points + i])));
 
   auto growing = std::vector<double>(q.size(), 0.0);
   growing[j] = 5e-3;  // six times as long, in the same direction
   const auto as_it_was = growing;
   ode.limit_step(q, growing);
   CHECK(growing == as_it_was);
+  CHECK(ode.step_limit(q, growing) == 1.0);
 }
