@@ -190,8 +190,8 @@ TEST_CASE("located and gridded events agree while events are rare", "[validation
 }
 
 TEST_CASE("how often events are looked for does not decide how often tethers break", "[validation][slow]") {
-  // Ten embryos to t = 300: 237, 246, 238, 246, 256 yields with 0.2, 0.1, 0.05, 0.025, 0.0125; with the tension raised at
-  // captures 1301, 2083, 3647, 4660, 5311 (docs/figures/fig4.md). Two to t = 40 here.
+  // Ten embryos to t = 300: 249, 243, 231, 238, 258 yields with 0.2, 0.1, 0.05, 0.025, 0.0125; with the tension raised at
+  // captures 1340, 1948, 3121, 4350, 4692 (docs/figures/fig4.md). Two to t = 40 here.
   Config config = with_contact_distance(default_config());
   config.run.end_time = 40.0;
   config.integrator.method = Method::automatic;
