@@ -105,7 +105,7 @@ std::vector<ConfigKey<Config>> program_keys() {
       key<&C::output, &OutputParameters::adjacency>("output", "adjacency", pure_number, anything,
                                                     "which cells the mean shape and the healed shape are taken of"),
       key<&C::output, &OutputParameters::pictures>("output", "pictures", pure_number, between(0, 1000),
-                                                   "number of pictures drawn along the run"),
+                                                   "number of pictures drawn along the run; 0: none at all, not even of its end"),
       key<&C::checkpoint, &P::interval>(
           "checkpoint", "interval", time, positive_or_infinite,
           "time between checkpoints at times the configuration fixes; the integrator starts afresh at each, and a run "

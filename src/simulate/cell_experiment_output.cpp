@@ -6,6 +6,7 @@
 #include "suture/measure/membrane.hpp"
 #include "suture/render/frame.hpp"
 #include "suture/simulate/cell_experiment.hpp"
+#include "suture/simulate/run.hpp"
 
 namespace suture {
 
@@ -125,6 +126,8 @@ void write_cell_experiment(const CellExperimentResult& result, const Config& con
   write_trajectory(result, config, provenance, directory / "run.h5");
   write_summary(summarise(result, config), directory / "summary.json");
   write_cell_csv(result.samples, UnitScales(config.units), directory / "cell.csv");
+  remove_pictures(directory);
+  if (config.output.pictures == 0) return;
   const std::vector<StripPanel> panels = make_panels(result, config);
   for (const char* name : {"final.png", "final.svg"}) render_cell_experiment(panels, panel_size, directory / name);
 }

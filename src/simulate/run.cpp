@@ -76,6 +76,12 @@ void remove_leftovers(const std::filesystem::path& directory) {
   remove_status(directory);
 }
 
+void remove_pictures(const std::filesystem::path& directory) {
+  std::error_code ignored;
+  for (const char* name : {"final.png", "final.svg", "strip.png"}) std::filesystem::remove(directory / name, ignored);
+  for (int k = 0; std::filesystem::remove(directory / fmt::format("frame_{:02}.png", k), ignored); ++k) continue;
+}
+
 RunOutcome run_protocol(const RunRequest& original) {
   if (original.config.run.protocol != Protocol::wound_closure) return run_one_cell(original);
   RunRequest request = original;

@@ -227,7 +227,8 @@ std::vector<RunRecorder::Picture> RunRecorder::chosen_pictures() const {
 }
 
 void RunRecorder::draw() const {
-  if (samples_.empty()) return;
+  remove_pictures(request_.directory);
+  if (samples_.empty() || request_.config.output.pictures == 0) return;
   for (const char* name : {"final.png", "final.svg"}) render_frame(latest_.state, style(latest_), request_.directory / name);
   const std::vector<Picture> chosen = chosen_pictures();
   std::vector<StripPanel> panels;

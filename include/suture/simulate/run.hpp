@@ -33,6 +33,9 @@ DirectoryContent content_of(const std::filesystem::path& directory);
 /// Removes the checkpoints and status.json that a program killed at the very end leaves beside a finished run.
 void remove_leftovers(const std::filesystem::path& directory);
 
+/// Removes the pictures of an earlier run (final.*, strip.png, frame_*.png), of which the next may make fewer. Throws nothing.
+void remove_pictures(const std::filesystem::path& directory);
+
 struct RunOutcome {
   RunSummary summary;
   std::string failure;  ///< why the run failed; empty unless summary.status is failed

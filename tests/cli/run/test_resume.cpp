@@ -19,7 +19,7 @@ namespace {
 std::vector<std::string> endless(const std::string& out, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"run", std::string(SUTURE_SOURCE_DIR) + "/examples/small.toml", "--quiet", "--out", out,
                                      "--set", "integrator.method=euler", "--set", "integrator.time_step=1e-5",
-                                     "--set", "output.interval=0.001", "--set", "output.pictures=0"};
+                                     "--set", "output.interval=0.001", "--set", "output.pictures=1"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

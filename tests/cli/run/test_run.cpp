@@ -1,9 +1,11 @@
 // `suture run` as a user meets it, on a small tissue.
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "support/program.hpp"
 
@@ -38,6 +40,20 @@ TEST_CASE("a run leaves everything the README promises, and it passes the check"
   const nlohmann::json summary = summary_of(directory.path() / "out");
   CHECK(summary["status"] == "closed");
   CHECK(summary["t_50"].get<double>() < summary["t_closed"].get<double>());
+}
+
+TEST_CASE("fewer pictures leave none of an earlier run behind, and without any a run has none", "[cli]") {
+  const TemporaryDirectory directory;
+  const auto pictures = [&](int number) {
+    REQUIRE(run(directory, "out", {"run.end_time=1", fmt::format("output.pictures={}", number)}).exit_code == 0);
+    std::set<std::string> names;
+    for (const auto& file : std::filesystem::directory_iterator(directory.path() / "out"))
+      if (const auto kind = file.path().extension(); kind == ".png" || kind == ".svg") names.insert(file.path().filename());
+    return names;
+  };
+  CHECK(pictures(2) == std::set<std::string>{"final.png", "final.svg", "strip.png", "frame_00.png", "frame_01.png"});
+  CHECK(pictures(1) == std::set<std::string>{"final.png", "final.svg", "strip.png", "frame_00.png"});
+  CHECK(pictures(0).empty());
 }
 
 TEST_CASE("a closure from a saved stage is the closure of the whole run, with the material asked for now", "[cli]") {
