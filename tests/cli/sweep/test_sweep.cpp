@@ -228,7 +228,8 @@ TEST_CASE("every sweep of this repository can be planned", "[cli][sweep]") {
                                         {"figures/fig3/sensitivity.toml", 144},
                                         {"figures/fig4/sweep_published_code.toml", 65},
                                         {"emulation/sweep.toml", 85},
-                                        {"emulation/first_pull.toml", 240}};
+                                        {"emulation/first_pull.toml", 240},
+                                        {"emulation/gap_law.toml", 109}};
   for (const auto& [file, count] : runs) {
     INFO(file);
     const Outcome list = run_suture(SUTURE_PROGRAM, {"sweep", std::string(SUTURE_SOURCE_DIR) + "/examples/" + file, "--list"}, directory.path());
