@@ -12,8 +12,10 @@ SUTURE_INLINE Double8 force_over_distance(const ContactScalars& c, Double8 d2) {
 }
 
 struct WindowState {
-  Double8 dx, dy, ex, ey, t, inverse_length, inverse_length2, segment_d2, point_d2, sign;
-  Mask8 segment, point;  ///< live lanes
+  Double8 dx, dy, ex, ey, t, inverse_length2;
+  Double8 along, rx, ry,
+      d2;  ///< where the nearest point is that is not the far end; from it to the vertex; squared distance
+  Mask8 segment, point, added;  ///< live terms; whether the point's is added, not subtracted
 };
 
 SUTURE_INLINE WindowState classify(const Shell& s, const ContactScalars& c, const Window& a, const Window& b) {
@@ -23,39 +25,99 @@ SUTURE_INLINE WindowState classify(const Shell& s, const ContactScalars& c, cons
   v.dy = broadcast_halves(s.y[a.p], s.y[b.p]) - load_halves(s.y + a.q, s.y + b.q);
   v.ex = load_halves(s.ex + a.q, s.ex + b.q);
   v.ey = load_halves(s.ey + a.q, s.ey + b.q);
-  v.inverse_length = load_halves(s.inverse_length + a.q, s.inverse_length + b.q);
-  v.inverse_length2 = v.inverse_length * v.inverse_length;
+  const Double8 inverse_length = load_halves(s.inverse_length + a.q, s.inverse_length + b.q);
+  v.inverse_length2 = inverse_length * inverse_length;
   v.t = (v.dx * v.ex + v.dy * v.ey) * v.inverse_length2;
   const Mask8 after_start = less(0.0, v.t) & listed;
   const Mask8 after_end = ~less(v.t, 1.0) & listed;
-  const Mask8 previous_after_end = shift_up_halves(after_end);
-  const Double8 cross = v.dx * v.ey - v.dy * v.ex;
-  v.segment_d2 = cross * cross * v.inverse_length2;
-  v.point_d2 = v.dx * v.dx + v.dy * v.dy;
-  v.segment = after_start & ~after_end & less(v.segment_d2, c.cutoff2);
-  v.point = (after_start ^ previous_after_end) & less(v.point_d2, c.cutoff2);
-  v.sign = select(previous_after_end, broadcast(1.0), broadcast(-1.0));
+  const Mask8 beside = after_start & ~after_end;
+  v.added = shift_up_halves(after_end);
+  v.along = only(beside, v.t);
+  v.rx = v.dx - v.along * v.ex;
+  v.ry = v.dy - v.along * v.ey;
+  v.d2 = v.rx * v.rx + v.ry * v.ry;
+  v.segment = beside & less(v.d2, c.cutoff2);
+  v.point = (after_start ^ v.added) & less(v.dx * v.dx + v.dy * v.dy, c.cutoff2);
   return v;
 }
 
-SUTURE_INLINE void add_windows(const Shell& s, const ContactScalars& c, const Window& a, const Window& b) {
+// Of the eight lanes of two windows two are live on the mean. Windows are only classified; live terms are collected,
+// packed, and their forces worked out with all lanes in use.
+
+/// Slots of a term: vertex and first end of the segment, or the point. The layout of Window, so that two loads fetch
+/// four lanes.
+struct TermSlots {
+  int p, q;
+};
+alignas(64) constexpr long long next_slots[lanes] = {0, 1ll << 32, 2ll << 32, 3ll << 32,
+                                                     0, 1ll << 32, 2ll << 32, 3ll << 32};
+static_assert(offsetof(Window, p) == offsetof(TermSlots, p) && offsetof(Window, q) == offsetof(TermSlots, q) &&
+              sizeof(TermSlots) == 8);
+
+/// TermSlots as bit patterns, lane k of each half at slot q + k.
+SUTURE_INLINE Double8 slots_of(const Window& a, const Window& b) {
+  double first, second;
+  __builtin_memcpy(&first, &a, sizeof first);
+  __builtin_memcpy(&second, &b, sizeof second);
+  return add_bits(broadcast_halves(first, second), next_slots);
+}
+
+struct LiveTerms {
+  static constexpr int full = 64,
+                       room = full + 3 * lanes;  ///< two windows have up to 16 terms, and packing writes beyond
+  /// From the nearest point to the vertex; where on the segment that is, 0 for a point, with the sign bit for a term
+  /// that is subtracted.
+  alignas(64) double rx[room], ry[room], t[room];
+  alignas(64) double slots[room];
+
+  SUTURE_INLINE void put(int place, unsigned mask, Double8 x, Double8 y, Double8 where, Double8 at) {
+    store_packed(rx + place, mask, x);
+    store_packed(ry + place, mask, y);
+    store_packed(t + place, mask, where);
+    store_packed(slots + place, mask, at);
+  }
+};
+
+/// Returns the number of terms with those of two windows. Their order does not depend on which windows come together.
+SUTURE_INLINE int collect(const Shell& s, const ContactScalars& c, const Window& a, const Window& b, LiveTerms& terms,
+                          int count) {
   const WindowState v = classify(s, c, a, b);
-  if (!any(v.segment | v.point)) return;
-  const Double8 zero{};  // a dead lane may hold anything, infinity too
-  const Double8 f = select(v.segment, force_over_distance(c, v.segment_d2), zero);
-  const Double8 g = select(v.point, force_over_distance(c, v.point_d2) * v.sign, zero);
-  const Double8 t = select(v.segment, v.t, zero);
-  const Double8 segment_x = f * (v.dx - t * v.ex), segment_y = f * (v.dy - t * v.ey);
-  const Double8 fx = segment_x + g * v.dx, fy = segment_y + g * v.dy;
-  const Double8 ahead_x = t * segment_x, ahead_y = t * segment_y;
-  double on_vertex[4];
-  sum_halves(fx, fy, on_vertex);
-  s.gx[a.p] += on_vertex[0];
-  s.gy[a.p] += on_vertex[1];
-  s.gx[b.p] += on_vertex[2];
-  s.gy[b.p] += on_vertex[3];
-  subtract_halves(s.gx + a.q, s.gx + b.q, (fx - ahead_x) + shift_up_halves(ahead_x));
-  subtract_halves(s.gy + a.q, s.gy + b.q, (fy - ahead_y) + shift_up_halves(ahead_y));
+  const Double8 at = slots_of(a, b), t = negate(~(v.segment | v.added), v.along);
+  const unsigned live = bits(v.segment | v.point);
+  const Mask8 both = v.segment & v.point;  // at concave corners
+  if (!any(both)) [[likely]] {
+    terms.put(count, live, v.rx, v.ry, t, at);
+    return count + set_bits(live);
+  }
+  for (const unsigned window : {0x0fu, 0xf0u}) {
+    terms.put(count, live & window, v.rx, v.ry, t, at);
+    count += set_bits(live & window);
+    terms.put(count, bits(both) & window, v.dx, v.dy, negate(~v.added, Double8{}), at);
+    count += set_bits(bits(both) & window);
+  }
+  return count;
+}
+
+/// Adds the forces of the terms collected, in their order.
+void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int count) {
+  alignas(64) double on_x[LiveTerms::room], on_y[LiveTerms::room], ahead_x[LiveTerms::room], ahead_y[LiveTerms::room];
+  for (int k = 0; k < count; k += lanes) {
+    const Double8 x = load(terms.rx + k), y = load(terms.ry + k), t = load(terms.t + k);
+    const Double8 f = with_sign_of(force_over_distance(c, x * x + y * y), t);
+    const Double8 fx = f * x, fy = f * y;
+    store(on_x + k, fx);
+    store(on_y + k, fy);
+    store(ahead_x + k, t * fx);
+    store(ahead_y + k, t * fy);
+  }
+  for (int k = 0; k < count; ++k) {
+    TermSlots at;
+    __builtin_memcpy(&at, terms.slots + k, sizeof at);
+    s.gx[at.p] += on_x[k];
+    s.gy[at.p] += on_y[k];
+    s.gx[at.q] -= on_x[k] - ahead_x[k], s.gx[at.q + 1] -= ahead_x[k];
+    s.gy[at.q] -= on_y[k] - ahead_y[k], s.gy[at.q + 1] -= ahead_y[k];
+  }
 }
 
 /// Partner of an odd last window: the same place without segments.
@@ -64,8 +126,16 @@ inline Window without_segments(const Window& w) { return {w.p, w.q, 0, 0}; }
 void contact_gradient(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                       const SelfPair* pairs, std::size_t pair_count) {
   const std::size_t even = window_count & ~std::size_t{1};
-  for (std::size_t k = 0; k < even; k += 2) add_windows(s, c, windows[k], windows[k + 1]);
-  if (even < window_count) add_windows(s, c, windows[even], without_segments(windows[even]));
+  LiveTerms terms;
+  int count = 0;
+  for (std::size_t k = 0; k < even; k += 2) {
+    count = collect(s, c, windows[k], windows[k + 1], terms, count);
+    if (count < LiveTerms::full) continue;
+    apply(s, c, terms, count);
+    count = 0;
+  }
+  if (even < window_count) count = collect(s, c, windows[even], without_segments(windows[even]), terms, count);
+  apply(s, c, terms, count);
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
@@ -77,27 +147,36 @@ void contact_gradient(const Shell& s, const ContactScalars& c, const Window* win
 }
 
 /// A point term: u'' along n, u'/d across it.
-inline ContactFactor point_factor(const ContactScalars& c, int p, int q, double dx, double dy, double sign, double lowest) {
+inline ContactFactor point_factor(const ContactScalars& c, int p, int q, double dx, double dy, double sign,
+                                  double lowest) {
   const double d2 = dx * dx + dy * dy, inverse = 1.0 / std::sqrt(d2);
   const bool inner = d2 < c.inner2;
   const double second = inner ? c.inner_b : c.outer_b;
   const double over = (inner ? c.inner_a : c.outer_a) * inverse + second;
-  return {dx * inverse, dy * inverse, 0.0, std::fmax(sign * second, lowest), std::fmax(sign * over, lowest), 0.0, 0.0, p, q};
+  return {dx * inverse,
+          dy * inverse,
+          0.0,
+          std::fmax(sign * second, lowest),
+          std::fmax(sign * over, lowest),
+          0.0,
+          0.0,
+          p,
+          q};
 }
 
-SUTURE_INLINE ContactFactor* add_factors(const Shell& s, const ContactScalars& c, const Window& a, const Window& b, double lowest,
-                                         ContactFactor* out) {
+SUTURE_INLINE ContactFactor* add_factors(const Shell& s, const ContactScalars& c, const Window& a, const Window& b,
+                                         double lowest, ContactFactor* out) {
   const WindowState v = classify(s, c, a, b);
   const unsigned segments = bits(v.segment), points = bits(v.point);
   if ((segments | points) == 0) return out;
   const auto first_slot = [&](int lane) { return lane < 4 ? a.q + lane : b.q + lane - 4; };
   const auto vertex = [&](int lane) { return lane < 4 ? a.p : b.p; };
   if (segments != 0) {
-    const Double8 inverse = inverse_square_root(v.segment_d2), d = v.segment_d2 * inverse;
-    const Mask8 inner = less(v.segment_d2, c.inner2);
+    const Double8 inverse = inverse_square_root(v.d2), d = v.d2 * inverse;
+    const Mask8 inner = less(v.d2, c.inner2);
     const Double8 second = select(inner, broadcast(c.inner_b), broadcast(c.outer_b));
     const Double8 slope = select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) + second * d;  // u'
-    const Double8 nx = (v.dx - v.t * v.ex) * inverse, ny = (v.dy - v.t * v.ey) * inverse;
+    const Double8 nx = v.rx * inverse, ny = v.ry * inverse;
     // The tangent below is n rotated by -90 degrees; sign it along the segment.
     const Double8 along = select(less(nx * v.ey, ny * v.ex), broadcast(1.0), broadcast(-1.0));
     const Double8 shared = -slope * v.inverse_length2;
@@ -110,12 +189,14 @@ SUTURE_INLINE ContactFactor* add_factors(const Shell& s, const ContactScalars& c
     store(column[5], shared * d);
     for (unsigned m = segments; m != 0; m &= m - 1) {
       const int j = __builtin_ctz(m);
-      *out++ = {column[0][j], column[1][j], column[2][j], column[3][j], 0.0, column[4][j], column[5][j], vertex(j), first_slot(j)};
+      *out++ = {column[0][j], column[1][j], column[2][j], column[3][j], 0.0,
+                column[4][j], column[5][j], vertex(j),    first_slot(j)};
     }
   }
+  const unsigned added = bits(v.added);
   for (unsigned m = points; m != 0; m &= m - 1) {
     const int j = __builtin_ctz(m);
-    *out++ = point_factor(c, vertex(j), first_slot(j), v.dx[j], v.dy[j], v.sign[j], lowest);
+    *out++ = point_factor(c, vertex(j), first_slot(j), v.dx[j], v.dy[j], added >> j & 1u ? 1.0 : -1.0, lowest);
   }
   return out;
 }
@@ -134,7 +215,8 @@ std::size_t contact_linearise(const Shell& s, const ContactScalars& c, const Win
   return static_cast<std::size_t>(out - factors);
 }
 
-void contact_product(const ContactFactor* factors, std::size_t count, const double* vx, const double* vy, double* ox, double* oy) {
+void contact_product(const ContactFactor* factors, std::size_t count, const double* vx, const double* vy, double* ox,
+                     double* oy) {
   for (std::size_t k = 0; k < count; ++k) {
     const ContactFactor& f = factors[k];
     const int p = f.p, a = f.q, b = f.q + 1;
@@ -169,7 +251,8 @@ void contact_diagonal(const ContactFactor* factors, std::size_t count, double* b
   }
 }
 
-void near_segments(const Shell& s, int cell, double px, double py, double reach2, unsigned long long* words, double* distance2) {
+void near_segments(const Shell& s, int cell, double px, double py, double reach2, unsigned long long* words,
+                   double* distance2) {
   const int b = s.base[cell] + 1, n = s.count[cell];
   for (int k = 0; k < n; k += lanes) {
     const Double8 dx = px - load(s.x + b + k), dy = py - load(s.y + b + k);

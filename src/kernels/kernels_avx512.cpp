@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstddef>
 
 #include "kernels/kernels.hpp"
 #include "kernels/vector8.hpp"

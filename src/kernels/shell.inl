@@ -10,7 +10,7 @@ struct Tension {
 };
 
 /// dU/dl at rest length `rest`, and its derivative along a line of rest lengths of slope b.
-inline Tension tension(bool relative, Double8 k, Double8 rest, Double8 b, Double8 l) {
+SUTURE_INLINE Tension tension(bool relative, Double8 k, Double8 rest, Double8 b, Double8 l) {
   if (!relative) return {k * (l - rest), k * (1.0 - b)};
   const Double8 inverse = 1.0 / rest;
   const Double8 ratio = l * inverse;
@@ -19,7 +19,7 @@ inline Tension tension(bool relative, Double8 k, Double8 rest, Double8 b, Double
 }
 
 /// Signed turning angle from (ex0, ey0) to (ex1, ey1), lengths l0, l1; in (-pi, pi].
-inline Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, Double8 ey1, Double8 l1) {
+SUTURE_INLINE Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, Double8 ey1, Double8 l1) {
   const Double8 cross = ex0 * ey1 - ey0 * ex1;
   const Double8 dot = ex0 * ex1 + ey0 * ey1;
   const Double8 d = l0 * l1 + dot;
@@ -40,7 +40,7 @@ inline Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, 
 }
 
 /// Slots 1 .. n of a cell and those that repeat them.
-inline void fill_slots(const double* vertices, double* a, int n) {
+SUTURE_INLINE void fill_slots(const double* vertices, double* a, int n) {
   static_assert(suture::kernels::halo == lanes + 2);
   if (n <= lanes) {
     for (int k = 0; k < n; ++k) a[1 + k] = vertices[k];

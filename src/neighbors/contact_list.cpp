@@ -15,31 +15,25 @@ void ContactList::build(const kernels::Shell& shell, const kernels::Table& kerne
   scratch_.resize(schedule_.parts());
   workers.for_each(schedule_.parts(), [&](int part) { fill_part(part, shell, kernel); });
   schedule_.arrange([this](int s, int t) {
-    return !lists_[schedule_.list_between(s, t)].windows.empty() || !lists_[schedule_.list_between(t, s)].windows.empty();
+    return !lists_[schedule_.list_between(s, t)].windows.empty() ||
+           !lists_[schedule_.list_between(t, s)].windows.empty();
   });
   active_bands_ = 0;
   age(0.0, workers);
 }
 
 void ContactList::age(double moved, WorkerPool& workers) {
-  const int wanted = skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
+  const int wanted =
+      skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
   if (wanted <= active_bands_) return;
   active_bands_ = wanted;
   workers.for_each(schedule_.lists(), [&](int k) { activate(lists_[k]); });
 }
 
-/// The kernel works on active windows two by two. They come from eight places of the list in turn: neighbouring vertices push
-/// on the same segments, and a load that overlaps a store just made has to wait for it.
 void ContactList::activate(Entries& entries) const {
-  const std::vector<kernels::Window>& all = entries.windows;
   entries.active.clear();
-  const auto take = [&](std::size_t k) {
-    if (all[k].band < active_bands_) entries.active.push_back(all[k]);
-  };
-  const std::size_t share = all.size() / 8;
-  for (std::size_t k = 0; k < share; ++k)
-    for (const std::size_t place : {0, 4, 1, 5, 2, 6, 3, 7}) take(k + place * share);
-  for (std::size_t k = 8 * share; k < all.size(); ++k) take(k);
+  for (const kernels::Window& window : entries.windows)
+    if (window.band < active_bands_) entries.active.push_back(window);
 }
 
 int ContactList::band_of(double distance2) const {
@@ -92,10 +86,12 @@ void ContactList::fill_part(int part, const kernels::Shell& shell, const kernels
   for (std::size_t block = blocks.begin; block < blocks.end; ++block) clear(lists_[block]);
   for (int other = 0; other < schedule_.parts(); ++other) clear(lists_[schedule_.list_between(part, other)]);
   for (std::size_t block = blocks.begin; block < blocks.end; ++block)
-    for (std::size_t k = schedule_.cells_of(static_cast<int>(block)).begin; k < schedule_.cells_of(static_cast<int>(block)).end; ++k) {
+    for (std::size_t k = schedule_.cells_of(static_cast<int>(block)).begin;
+         k < schedule_.cells_of(static_cast<int>(block)).end; ++k) {
       const auto c = static_cast<int>(k);
       find_neighbors(c, scratch.neighbors);
-      for (int slot = shell.base[c] + 1; slot <= shell.base[c] + shell.count[c]; ++slot) add_windows(scratch, shell, kernel, slot);
+      for (int slot = shell.base[c] + 1; slot <= shell.base[c] + shell.count[c]; ++slot)
+        add_windows(scratch, shell, kernel, slot);
       if (self_reach_ > 0.0) add_self_pairs(lists_[block], shell, c);
     }
 }
@@ -111,10 +107,12 @@ void ContactList::find_neighbors(int cell, std::vector<Neighbor>& neighbors) con
       for (int k = bucket_start_[i + nx_ * j]; k < bucket_start_[i + nx_ * j + 1]; ++k) {
         const int other = bucket_cells_[k];
         const Box& b = boxes_[other];
-        if (other != cell && b.x0 < a.x1 + margin && b.x1 > a.x0 - margin && b.y0 < a.y1 + margin && b.y1 > a.y0 - margin)
+        if (other != cell && b.x0 < a.x1 + margin && b.x1 > a.x0 - margin && b.y0 < a.y1 + margin &&
+            b.y1 > a.y0 - margin)
           neighbors.push_back({other, schedule_.list_of(cell, other)});
       }
-  std::sort(neighbors.begin(), neighbors.end(), [](const Neighbor& one, const Neighbor& two) { return one.cell < two.cell; });
+  std::sort(neighbors.begin(), neighbors.end(),
+            [](const Neighbor& one, const Neighbor& two) { return one.cell < two.cell; });
 }
 
 void ContactList::add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int slot) {
@@ -130,13 +128,15 @@ void ContactList::add_windows(Scratch& scratch, const kernels::Shell& shell, con
   }
 }
 
-/// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the end
-/// is taken up at its beginning, so that it is not cut there.
-void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n, std::vector<kernels::Window>& windows) const {
+/// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the
+/// end is taken up at its beginning, so that it is not cut there.
+void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n,
+                              std::vector<kernels::Window>& windows) const {
   std::vector<int>& near = scratch.near;
   near.clear();
   for (int w = 0; 64 * w < n; ++w)
-    for (unsigned long long word = scratch.words[w]; word != 0; word &= word - 1) near.push_back(64 * w + __builtin_ctzll(word));
+    for (unsigned long long word = scratch.words[w]; word != 0; word &= word - 1)
+      near.push_back(64 * w + __builtin_ctzll(word));
   const int count = static_cast<int>(near.size());
   if (count == 0) return;
   int lead = 0;  // where the run over the end begins in near
@@ -153,7 +153,8 @@ void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n,
       length = ahead + 1;
       distance2 = std::min(distance2, scratch.distance2[next]);
     }
-    windows.push_back({slot, first_slot + first, static_cast<std::int16_t>(length), static_cast<std::int16_t>(band_of(distance2))});
+    windows.push_back(
+        {slot, first_slot + first, static_cast<std::int16_t>(length), static_cast<std::int16_t>(band_of(distance2))});
   }
 }
 

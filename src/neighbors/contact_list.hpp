@@ -23,7 +23,7 @@ class ContactList {
   static constexpr int bands = 5;
   struct Entries {
     std::vector<kernels::Window> windows;  ///< by the vertex's cell, vertex and other cell
-    std::vector<kernels::Window> active;   ///< what can be in reach, so ordered that neighbours in the list are far apart in space
+    std::vector<kernels::Window> active;   ///< what can be in reach, in the same order
     std::vector<kernels::SelfPair> self_pairs;
   };
 
