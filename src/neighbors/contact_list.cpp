@@ -128,8 +128,8 @@ void ContactList::add_windows(Scratch& scratch, const kernels::Shell& shell, con
   }
 }
 
-/// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the
-/// end is taken up at its beginning, so that it is not cut there.
+/// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the end
+/// is taken up at its beginning, so that it is not cut there.
 void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n,
                               std::vector<kernels::Window>& windows) const {
   std::vector<int>& near = scratch.near;
@@ -139,22 +139,32 @@ void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n,
       near.push_back(64 * w + __builtin_ctzll(word));
   const int count = static_cast<int>(near.size());
   if (count == 0) return;
-  int lead = 0;  // where the run over the end begins in near
-  if (near.front() == 0 && near.back() == n - 1)
-    for (lead = count - 1; lead > 1 && near[lead - 1] == near[lead] - 1;) --lead;
-  const auto ordered = [&](int k) { return near[lead + k < count ? lead + k : lead + k - count]; };
-  for (int k = 0; k < count;) {
-    const int first = ordered(k);
-    int length = 1;
-    double distance2 = scratch.distance2[first];
-    for (++k; k < count; ++k) {
-      const int next = ordered(k), ahead = next >= first ? next - first : next + n - first;
-      if (ahead >= kernels::window_segments) break;
-      length = ahead + 1;
-      distance2 = std::min(distance2, scratch.distance2[next]);
-    }
-    windows.push_back(
-        {slot, first_slot + first, static_cast<std::int16_t>(length), static_cast<std::int16_t>(band_of(distance2))});
+  if (near.front() == 0 && near.back() == n - 1 && count < n) {
+    int lead = count - 1;  // where the run over the end begins
+    while (near[lead - 1] == near[lead] - 1) --lead;
+    std::rotate(near.begin(), near.begin() + lead, near.end());
+  }
+  for (int begin = 0, end = 0; begin < count; begin = end) {
+    for (end = begin + 1; end < count && near[end] == (near[end - 1] + 1) % n;) ++end;
+    cut_run({near.data() + begin, near.data() + end}, scratch, slot, first_slot, windows);
+  }
+}
+
+/// Windows over consecutive segments. The nearest is the middle of one: what is in reach lies beside it, and at a cut in
+/// reach the windows on either side would have a term each that cancel.
+void ContactList::cut_run(std::span<const int> run, const Scratch& scratch, int slot, int first_slot,
+                          std::vector<kernels::Window>& windows) const {
+  constexpr int most = kernels::window_segments;
+  const std::vector<double>& distance2 = scratch.distance2;
+  const auto nearer = [&](int one, int two) { return distance2[one] < distance2[two]; };
+  const auto nearest = static_cast<int>(std::min_element(run.begin(), run.end(), nearer) - run.begin());
+  const auto length = static_cast<int>(run.size());
+  const int phase = (nearest - most / 2 + most) % most;
+  for (int k = phase == 0 ? 0 : phase - most; k < length; k += most) {
+    const int begin = std::max(k, 0), end = std::min(k + most, length);
+    const int closest = *std::min_element(run.begin() + begin, run.begin() + end, nearer);
+    windows.push_back({slot, first_slot + run[begin], static_cast<std::int16_t>(end - begin),
+                       static_cast<std::int16_t>(band_of(distance2[closest]))});
   }
 }
 

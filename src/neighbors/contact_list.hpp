@@ -9,6 +9,7 @@
 // The list of a large tissue is several (contact_schedule.hpp).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "kernels/kernels.hpp"
@@ -63,6 +64,7 @@ class ContactList {
   void find_neighbors(int cell, std::vector<Neighbor>& neighbors) const;
   void add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int slot);
   void cut_windows(Scratch& scratch, int slot, int first_slot, int n, std::vector<kernels::Window>& windows) const;
+  void cut_run(std::span<const int> run, const Scratch& scratch, int slot, int first_slot, std::vector<kernels::Window>& windows) const;
   int band_of(double distance2) const;
   void activate(Entries& entries) const;
   void add_self_pairs(Entries& entries, const kernels::Shell& shell, int cell) const;
