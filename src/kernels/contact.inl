@@ -100,23 +100,29 @@ SUTURE_INLINE int collect(const Shell& s, const ContactScalars& c, const Window&
 
 /// Adds the forces of the terms collected, in their order.
 void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int count) {
-  alignas(64) double on_x[LiveTerms::room], on_y[LiveTerms::room], ahead_x[LiveTerms::room], ahead_y[LiveTerms::room];
+  struct {
+    alignas(64) double x[LiveTerms::room], y[LiveTerms::room];
+  } on_vertex, on_first, on_second;  // dU/dr of the vertex, and minus that of the segment's ends
   for (int k = 0; k < count; k += lanes) {
     const Double8 x = load(terms.rx + k), y = load(terms.ry + k), t = load(terms.t + k);
     const Double8 f = with_sign_of(force_over_distance(c, x * x + y * y), t);
     const Double8 fx = f * x, fy = f * y;
-    store(on_x + k, fx);
-    store(on_y + k, fy);
-    store(ahead_x + k, t * fx);
-    store(ahead_y + k, t * fy);
+    store(on_vertex.x + k, fx);
+    store(on_vertex.y + k, fy);
+    store(on_second.x + k, t * fx);
+    store(on_second.y + k, t * fy);
+    store(on_first.x + k, fx - t * fx);
+    store(on_first.y + k, fy - t * fy);
   }
   for (int k = 0; k < count; ++k) {
     TermSlots at;
     __builtin_memcpy(&at, terms.slots + k, sizeof at);
-    s.gx[at.p] += on_x[k];
-    s.gy[at.p] += on_y[k];
-    s.gx[at.q] -= on_x[k] - ahead_x[k], s.gx[at.q + 1] -= ahead_x[k];
-    s.gy[at.q] -= on_y[k] - ahead_y[k], s.gy[at.q + 1] -= ahead_y[k];
+    s.gx[at.p] += on_vertex.x[k];
+    s.gy[at.p] += on_vertex.y[k];
+    s.gx[at.q] -= on_first.x[k];
+    s.gy[at.q] -= on_first.y[k];
+    s.gx[at.q + 1] -= on_second.x[k];
+    s.gy[at.q + 1] -= on_second.y[k];
   }
 }
 
