@@ -12,9 +12,8 @@ SUTURE_INLINE Double8 force_over_distance(const ContactScalars& c, Double8 d2) {
 }
 
 struct WindowState {
-  Double8 dx, dy, ex, ey, t, inverse_length2;
-  Double8 along, rx, ry,
-      d2;  ///< where the nearest point is that is not the far end; from it to the vertex; squared distance
+  Double8 dx, dy;               ///< from the first end of the segment to the vertex
+  Double8 along, rx, ry;        ///< the nearest point short of the far end: where on the segment, from it to the vertex
   Mask8 segment, point, added;  ///< live terms; whether the point's is added, not subtracted
 };
 
@@ -23,20 +22,17 @@ SUTURE_INLINE WindowState classify(const Shell& s, const ContactScalars& c, cons
   const Mask8 listed = first_lanes_halves(a.segments, b.segments);
   v.dx = broadcast_halves(s.x[a.p], s.x[b.p]) - load_halves(s.x + a.q, s.x + b.q);
   v.dy = broadcast_halves(s.y[a.p], s.y[b.p]) - load_halves(s.y + a.q, s.y + b.q);
-  v.ex = load_halves(s.ex + a.q, s.ex + b.q);
-  v.ey = load_halves(s.ey + a.q, s.ey + b.q);
+  const Double8 ex = load_halves(s.ex + a.q, s.ex + b.q), ey = load_halves(s.ey + a.q, s.ey + b.q);
   const Double8 inverse_length = load_halves(s.inverse_length + a.q, s.inverse_length + b.q);
-  v.inverse_length2 = inverse_length * inverse_length;
-  v.t = (v.dx * v.ex + v.dy * v.ey) * v.inverse_length2;
-  const Mask8 after_start = less(0.0, v.t) & listed;
-  const Mask8 after_end = ~less(v.t, 1.0) & listed;
+  const Double8 t = (v.dx * ex + v.dy * ey) * (inverse_length * inverse_length);
+  const Mask8 after_start = less(0.0, t) & listed;
+  const Mask8 after_end = ~less(t, 1.0) & listed;
   const Mask8 beside = after_start & ~after_end;
   v.added = shift_up_halves(after_end);
-  v.along = only(beside, v.t);
-  v.rx = v.dx - v.along * v.ex;
-  v.ry = v.dy - v.along * v.ey;
-  v.d2 = v.rx * v.rx + v.ry * v.ry;
-  v.segment = beside & less(v.d2, c.cutoff2);
+  v.along = only(beside, t);
+  v.rx = v.dx - v.along * ex;
+  v.ry = v.dy - v.along * ey;
+  v.segment = beside & less(v.rx * v.rx + v.ry * v.ry, c.cutoff2);
   v.point = (after_start ^ v.added) & less(v.dx * v.dx + v.dy * v.dy, c.cutoff2);
   return v;
 }
@@ -70,6 +66,11 @@ struct LiveTerms {
   alignas(64) double rx[room], ry[room], t[room];
   alignas(64) double slots[room];
 
+  TermSlots at(int k) const {
+    TermSlots found;
+    __builtin_memcpy(&found, slots + k, sizeof found);
+    return found;
+  }
   SUTURE_INLINE void put(int place, unsigned mask, Double8 x, Double8 y, Double8 where, Double8 at) {
     store_packed(rx + place, mask, x);
     store_packed(ry + place, mask, y);
@@ -98,6 +99,26 @@ SUTURE_INLINE int collect(const Shell& s, const ContactScalars& c, const Window&
   return count;
 }
 
+/// Calls use(terms, count) with all live terms, at most `full` and a few at a time, in the order of the windows.
+template <typename Use>
+SUTURE_INLINE void for_live_terms(const Shell& s, const ContactScalars& c, const Window* windows,
+                                  std::size_t window_count, Use&& use) {
+  const std::size_t even = window_count & ~std::size_t{1};
+  LiveTerms terms;
+  int count = 0;
+  for (std::size_t k = 0; k < even; k += 2) {
+    count = collect(s, c, windows[k], windows[k + 1], terms, count);
+    if (count < LiveTerms::full) continue;
+    use(terms, count);
+    count = 0;
+  }
+  if (even < window_count) {
+    const Window& last = windows[even];
+    count = collect(s, c, last, {last.p, last.q, 0, 0}, terms, count);
+  }
+  use(terms, count);
+}
+
 /// Adds the forces of the terms collected, in their order.
 void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int count) {
   struct {
@@ -115,8 +136,7 @@ void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int 
     store(on_first.y + k, fy - t * fy);
   }
   for (int k = 0; k < count; ++k) {
-    TermSlots at;
-    __builtin_memcpy(&at, terms.slots + k, sizeof at);
+    const TermSlots at = terms.at(k);
     s.gx[at.p] += on_vertex.x[k];
     s.gy[at.p] += on_vertex.y[k];
     s.gx[at.q] -= on_first.x[k];
@@ -126,22 +146,9 @@ void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int 
   }
 }
 
-/// Partner of an odd last window: the same place without segments.
-inline Window without_segments(const Window& w) { return {w.p, w.q, 0, 0}; }
-
 void contact_gradient(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                       const SelfPair* pairs, std::size_t pair_count) {
-  const std::size_t even = window_count & ~std::size_t{1};
-  LiveTerms terms;
-  int count = 0;
-  for (std::size_t k = 0; k < even; k += 2) {
-    count = collect(s, c, windows[k], windows[k + 1], terms, count);
-    if (count < LiveTerms::full) continue;
-    apply(s, c, terms, count);
-    count = 0;
-  }
-  if (even < window_count) count = collect(s, c, windows[even], without_segments(windows[even]), terms, count);
-  apply(s, c, terms, count);
+  for_live_terms(s, c, windows, window_count, [&](const LiveTerms& terms, int count) { apply(s, c, terms, count); });
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
@@ -170,39 +177,37 @@ inline ContactFactor point_factor(const ContactScalars& c, int p, int q, double 
           q};
 }
 
-SUTURE_INLINE ContactFactor* add_factors(const Shell& s, const ContactScalars& c, const Window& a, const Window& b,
-                                         double lowest, ContactFactor* out) {
-  const WindowState v = classify(s, c, a, b);
-  const unsigned segments = bits(v.segment), points = bits(v.point);
-  if ((segments | points) == 0) return out;
-  const auto first_slot = [&](int lane) { return lane < 4 ? a.q + lane : b.q + lane - 4; };
-  const auto vertex = [&](int lane) { return lane < 4 ? a.p : b.p; };
-  if (segments != 0) {
-    const Double8 inverse = inverse_square_root(v.d2), d = v.d2 * inverse;
-    const Mask8 inner = less(v.d2, c.inner2);
-    const Double8 second = select(inner, broadcast(c.inner_b), broadcast(c.outer_b));
-    const Double8 slope = select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) + second * d;  // u'
-    const Double8 nx = v.rx * inverse, ny = v.ry * inverse;
-    // The tangent below is n rotated by -90 degrees; sign it along the segment.
-    const Double8 along = select(less(nx * v.ey, ny * v.ex), broadcast(1.0), broadcast(-1.0));
-    const Double8 shared = -slope * v.inverse_length2;
-    double column[6][lanes];
-    store(column[0], nx);
-    store(column[1], ny);
-    store(column[2], v.t);
-    store(column[3], maximum(second, broadcast(lowest)));
-    store(column[4], shared * inverse_square_root(v.inverse_length2) * along);
-    store(column[5], shared * d);
-    for (unsigned m = segments; m != 0; m &= m - 1) {
-      const int j = __builtin_ctz(m);
-      *out++ = {column[0][j], column[1][j], column[2][j], column[3][j], 0.0,
-                column[4][j], column[5][j], vertex(j),    first_slot(j)};
-    }
+/// Appends the second derivatives of the terms collected.
+ContactFactor* append_factors(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int count, double lowest,
+                              ContactFactor* out) {
+  struct Column {
+    alignas(64) double at[LiveTerms::room];
+  };
+  Column ex, ey, inverse_length, nx, ny, t, na, gg, gb, bb;
+  for (int k = 0; k < count; ++k) {
+    const int q = terms.at(k).q;
+    ex.at[k] = s.ex[q], ey.at[k] = s.ey[q], inverse_length.at[k] = s.inverse_length[q];
   }
-  const unsigned added = bits(v.added);
-  for (unsigned m = points; m != 0; m &= m - 1) {
-    const int j = __builtin_ctz(m);
-    *out++ = point_factor(c, vertex(j), first_slot(j), v.dx[j], v.dy[j], added >> j & 1u ? 1.0 : -1.0, lowest);
+  for (int k = 0; k < count; k += lanes) {
+    const Double8 x = load(terms.rx + k), y = load(terms.ry + k), where = load(terms.t + k);
+    const Double8 d2 = x * x + y * y, inverse = inverse_square_root(d2), d = d2 * inverse;
+    const Mask8 inner = less(d2, c.inner2), segment = less(0.0, where);
+    const Double8 second = select(inner, broadcast(c.inner_b), broadcast(c.outer_b));              // u''
+    const Double8 slope = select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) + second * d;  // u'
+    const Double8 n_x = x * inverse, n_y = y * inverse;
+    // The tangent of a factor is n rotated by -90 degrees; signed along the segment.
+    const Double8 along = negate(less(n_x * load(ey.at + k), n_y * load(ex.at + k)), load(inverse_length.at + k));
+    store(nx.at + k, n_x);
+    store(ny.at + k, n_y);
+    store(t.at + k, only(segment, where));
+    store(na.at + k, maximum(with_sign_of(second, where), broadcast(lowest)));
+    store(gg.at + k, only(~segment, maximum(with_sign_of(slope * inverse, where), broadcast(lowest))));
+    store(gb.at + k, only(segment, slope * along));
+    store(bb.at + k, only(segment, -slope * d * (along * along)));
+  }
+  for (int k = 0; k < count; ++k) {
+    const TermSlots slots = terms.at(k);
+    *out++ = {nx.at[k], ny.at[k], t.at[k], na.at[k], gg.at[k], gb.at[k], bb.at[k], slots.p, slots.q};
   }
   return out;
 }
@@ -210,9 +215,8 @@ SUTURE_INLINE ContactFactor* add_factors(const Shell& s, const ContactScalars& c
 std::size_t contact_linearise(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
                               const SelfPair* pairs, std::size_t pair_count, double lowest, ContactFactor* factors) {
   ContactFactor* out = factors;
-  const std::size_t even = window_count & ~std::size_t{1};
-  for (std::size_t k = 0; k < even; k += 2) out = add_factors(s, c, windows[k], windows[k + 1], lowest, out);
-  if (even < window_count) out = add_factors(s, c, windows[even], without_segments(windows[even]), lowest, out);
+  for_live_terms(s, c, windows, window_count,
+                 [&](const LiveTerms& terms, int count) { out = append_factors(s, c, terms, count, lowest, out); });
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j];
