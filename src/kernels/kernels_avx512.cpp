@@ -3,6 +3,7 @@
 
 #include "kernels/kernels.hpp"
 #include "kernels/vector8.hpp"
+#include "kernels/window_lanes.hpp"
 
 namespace {
 
