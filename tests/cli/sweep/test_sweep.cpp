@@ -225,6 +225,7 @@ TEST_CASE("every sweep of this repository can be planned", "[cli][sweep]") {
                                         {"figures/fig4/sweep.toml", 125},
                                         {"figures/fig4/tolerance.toml", 100},
                                         {"figures/fig4/event_grid.toml", 150},
+                                        {"figures/fig4/packing.toml", 100},
                                         {"figures/fig3/sensitivity.toml", 144},
                                         {"figures/fig4/sweep_published_code.toml", 65},
                                         {"emulation/sweep.toml", 85},
