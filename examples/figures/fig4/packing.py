@@ -49,13 +49,13 @@ def main():
     figure, axes = plt.subplots(1, 2, figsize=(11, 4))
     random = np.random.default_rng(1)
     for case, (time, areas) in wounds(results / "sweep.h5").items():
-        right = case.startswith("wing")
+        right = int(case.startswith("wing"))
         mean = areas.mean(axis=0) / areas[:, 0].mean()
         error = areas.std(axis=0, ddof=1) / np.sqrt(len(areas)) / areas[:, 0].mean()
         axes[right].plot(time, mean, "--" if "emulation" in case else "-", color="C0" if right else "C3", label=f"{case.replace('_', ' ')}, {len(areas)} seeds")
         axes[right].fill_between(time, mean - error, mean + error, color="C0" if right else "C3", alpha=0.2, lw=0)
         again = [times(time, areas[random.integers(0, len(areas), len(areas))]) for _ in range(400)]
-        print(f"| {case} | {len(areas)} | " + " | ".join(f"{t:.1f} ± {e:.1f}" for t, e in zip(times(time, areas), np.nanstd(again, axis=0))) + " |")
+        print(f"| {case} | {len(areas)} | " + " | ".join("not reached" if np.isnan(t) else f"{t:.1f} ± {e:.1f}" for t, e in zip(times(time, areas), np.nanstd(again, axis=0))) + " |")
     for axis, curve in zip(axes, ("embryo", "wing_disc")):
         rows = [r for r in curves if r["curve"] == curve]
         axis.plot(np.array(column(rows, "t_star")) - 10.0, column(rows, "area_norm"), "k:", lw=1.8, label=f"{curve.replace('_', ' ')}, published simulations")
