@@ -37,14 +37,13 @@ SUTURE_INLINE WindowState classify(const Shell& s, const ContactScalars& c, cons
   return v;
 }
 
-// Of the eight lanes of two windows two are live on the mean. Windows are only classified; live terms are collected,
-// packed, and their forces worked out with all lanes in use.
+// Nearly every window has one live term. The gradient has one window per lane, finds that term, and packs terms, so that
+// forces are worked out with all lanes in use. The few windows with several terms follow at the end. Linearising works on
+// two windows at a time, a segment per lane.
 
 /// Slots of a term: vertex and first end of the segment, or the point. The layout of Window, so that two loads fetch
 /// four lanes.
-struct TermSlots {
-  int p, q;
-};
+using TermSlots = WindowGroup::Slots;
 alignas(64) constexpr long long next_slots[lanes] = {0, 1ll << 32, 2ll << 32, 3ll << 32,
                                                      0, 1ll << 32, 2ll << 32, 3ll << 32};
 static_assert(offsetof(Window, p) == offsetof(TermSlots, p) && offsetof(Window, q) == offsetof(TermSlots, q) &&
@@ -55,12 +54,12 @@ SUTURE_INLINE Double8 slots_of(const Window& a, const Window& b) {
   double first, second;
   __builtin_memcpy(&first, &a, sizeof first);
   __builtin_memcpy(&second, &b, sizeof second);
-  return add_bits(broadcast_halves(first, second), next_slots);
+  return add_bits(broadcast_halves(first, second), load_bits(next_slots));
 }
 
 struct LiveTerms {
   static constexpr int full = 64,
-                       room = full + 3 * lanes;  ///< two windows have up to 16 terms, and packing writes beyond
+                       room = 2 * full + lanes;  ///< packing writes beyond
   /// From the nearest point to the vertex; where on the segment that is, 0 for a point, with the sign bit for a term
   /// that is subtracted.
   alignas(64) double rx[room], ry[room], t[room];
@@ -119,6 +118,120 @@ SUTURE_INLINE void for_live_terms(const Shell& s, const ContactScalars& c, const
   use(terms, count);
 }
 
+constexpr int segments = suture::kernels::window_segments, points = segments + 1;
+constexpr int batches = WindowGroup::windows / lanes;
+
+/// One bit per window of a group, made and used as bytes of one batch of eight windows.
+struct Bits {
+  std::uint64_t all = 0;
+  SUTURE_INLINE void put(int batch, Mask8 m) { reinterpret_cast<unsigned char*>(&all)[batch] = static_cast<unsigned char>(bits(m)); }
+  SUTURE_INLINE Mask8 of(int batch) const { return from_bits(reinterpret_cast<const unsigned char*>(&all)[batch]); }
+};
+
+/// Where the vertices of a group's windows are: after the start and before the end of a segment, near the points at the ends of
+/// the window; from each point to the vertex.
+struct GroupPlaces {
+  Bits after_start[segments], before_end[segments], near_first, near_last;
+  alignas(64) double dx[batches][points][lanes], dy[batches][points][lanes];
+};
+
+SUTURE_INLINE void place(const Shell& s, const ContactScalars& c, const WindowGroup& group, int batch, GroupPlaces& places) {
+  const WindowGroup::Slots* slots = group.slots + batch * lanes;
+  Double8 dx[points], dy[points];
+  load_quads(s.x, &slots->q, dx);
+  load_quads(s.y, &slots->q, dy);
+  const Double8 px = load_each(s.x, &slots->p), py = load_each(s.y, &slots->p);
+  for (int k = 0; k < points; ++k) {
+    dx[k] = px - dx[k], dy[k] = py - dy[k];
+    store(places.dx[batch][k], dx[k]);
+    store(places.dy[batch][k], dy[k]);
+  }
+  for (int k = 0; k < segments; ++k) {
+    const Double8 ex = dx[k] - dx[k + 1], ey = dy[k] - dy[k + 1];
+    places.after_start[k].put(batch, less(0.0, dx[k] * ex + dy[k] * ey));
+    places.before_end[k].put(batch, less(dx[k + 1] * ex + dy[k + 1] * ey, 0.0));
+  }
+  const auto near = [&](int k) { return less(dx[k] * dx[k] + dy[k] * dy[k], c.cutoff2); };
+  places.near_first.put(batch, near(0));
+  places.near_last.put(batch, near(segments));
+}
+
+/// Which windows have a segment's and a point's term, number by number (segment k goes from point k to k + 1), and where the
+/// point's is added and not subtracted. Terms out of reach are among them, if not those of the first and the last point.
+struct GroupTerms {
+  Bits segment[segments], point[points], added[points];
+  Bits one, several;   ///< windows with one term, with more
+  Bits here[points], any_segment, any_added;  ///< for windows with one term: its number, its kind
+};
+
+SUTURE_INLINE GroupTerms find_terms(const GroupPlaces& places, const WindowGroup& group, int used) {
+  const std::uint64_t known = ~std::uint64_t{0} >> (WindowGroup::windows - used * lanes);
+  GroupTerms found;
+  std::uint64_t any = 0;
+  const auto take = [&](Bits& kind, int k, std::uint64_t term) {
+    kind.all = term;
+    found.several.all |= any & term;
+    any |= term;
+    found.here[k].all |= term;
+  };
+  for (int k = 0; k < segments; ++k) {
+    const std::uint64_t start = places.after_start[k].all & group.segments[k] & known, end = start & ~places.before_end[k].all;
+    const std::uint64_t near = k == 0 ? places.near_first.all : ~std::uint64_t{0};
+    take(found.point[k], k, (start ^ found.added[k].all) & near);
+    take(found.segment[k], k, start & ~end);
+    found.added[k + 1].all = end;
+    found.any_segment.all |= start & ~end;
+    found.any_added.all |= found.point[k].all & found.added[k].all;
+  }
+  take(found.point[segments], segments, found.added[segments].all & places.near_last.all);
+  found.any_added.all |= found.point[segments].all | found.any_segment.all;
+  found.one.all = any & ~found.several.all;
+  return found;
+}
+
+/// Returns the number of terms with those of one batch.
+SUTURE_INLINE int pack(const ContactScalars& c, const WindowGroup& group, int batch, const GroupPlaces& places,
+                       const GroupTerms& found, LiveTerms& terms, int count) {
+  const double(*x)[lanes] = places.dx[batch], (*y)[lanes] = places.dy[batch];
+  Double8 rx = load(x[0]), ry = load(y[0]), nx = load(x[1]), ny = load(y[1]), next{};  // from this point and the next
+  for (int k = 1; k < points; ++k) {
+    const Mask8 here = found.here[k].of(batch);
+    rx = select(here, load(x[k]), rx), ry = select(here, load(y[k]), ry);
+    if (k < segments) nx = select(here, load(x[k + 1]), nx), ny = select(here, load(y[k + 1]), ny);
+    next = select(here, bit_pattern(static_cast<long long>(k) << 32), next);
+  }
+  const Double8 ex = rx - nx, ey = ry - ny;
+  const Double8 t = only(found.any_segment.of(batch), (rx * ex + ry * ey) * inverse(ex * ex + ey * ey));
+  rx = rx - t * ex;
+  ry = ry - t * ey;
+  const unsigned live = bits(found.one.of(batch) & less(rx * rx + ry * ry, c.cutoff2));
+  terms.put(count, live, rx, ry, negate(~found.any_added.of(batch), t), add_bits(load_bits(group.slots + batch * lanes), next));
+  return count + set_bits(live);
+}
+
+/// All terms in reach of window `number` of the group.
+SUTURE_INLINE int append(const ContactScalars& c, const WindowGroup& group, int number, const GroupPlaces& places,
+                         const GroupTerms& found, LiveTerms& terms, int count) {
+  const int batch = number / lanes, lane = number % lanes;
+  const auto x = [&](int k) { return places.dx[batch][k][lane]; };
+  const auto y = [&](int k) { return places.dy[batch][k][lane]; };
+  const auto put = [&](int k, double rx, double ry, double t) {
+    if (!(rx * rx + ry * ry < c.cutoff2)) return;
+    terms.rx[count] = rx, terms.ry[count] = ry, terms.t[count] = t;
+    const TermSlots slots{group.slots[number].p, group.slots[number].q + k};
+    __builtin_memcpy(terms.slots + count, &slots, sizeof slots);
+    ++count;
+  };
+  for (int k = 0; k < points; ++k) {
+    if (found.point[k].all >> number & 1u) put(k, x(k), y(k), found.added[k].all >> number & 1u ? 0.0 : -0.0);
+    if (k == segments || !(found.segment[k].all >> number & 1u)) continue;
+    const double ex = x(k) - x(k + 1), ey = y(k) - y(k + 1);
+    const double t = (x(k) * ex + y(k) * ey) / (ex * ex + ey * ey);
+    put(k, x(k) - t * ex, y(k) - t * ey, t);
+  }
+  return count;
+}
+
 /// Adds the forces of the terms collected, in their order.
 void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int count) {
   struct {
@@ -146,9 +259,25 @@ void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int 
   }
 }
 
-void contact_gradient(const Shell& s, const ContactScalars& c, const Window* windows, std::size_t window_count,
+void contact_gradient(const Shell& s, const ContactScalars& c, const WindowGroup* groups, std::size_t windows,
                       const SelfPair* pairs, std::size_t pair_count) {
-  for_live_terms(s, c, windows, window_count, [&](const LiveTerms& terms, int count) { apply(s, c, terms, count); });
+  LiveTerms terms;
+  GroupPlaces places;
+  for (std::size_t first = 0; first < windows; first += WindowGroup::windows) {
+    const WindowGroup& group = groups[first / WindowGroup::windows];
+    const int used = static_cast<int>((std::min(windows - first, std::size_t{WindowGroup::windows}) + lanes - 1) / lanes);
+    for (int batch = 0; batch < used; ++batch) place(s, c, group, batch, places);
+    const GroupTerms found = find_terms(places, group, used);
+    int count = 0;
+    for (std::uint64_t m = found.several.all; m != 0; m &= m - 1) {
+      count = append(c, group, __builtin_ctzll(m), places, found, terms, count);
+      if (count < LiveTerms::full) continue;
+      apply(s, c, terms, count);
+      count = 0;
+    }
+    for (int batch = 0; batch < used; ++batch) count = pack(c, group, batch, places, found, terms, count);
+    apply(s, c, terms, count);
+  }
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;

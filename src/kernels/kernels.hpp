@@ -76,6 +76,15 @@ struct Window {
   std::int16_t segments, band;
 };
 
+/// Windows side by side: what the gradient works on.
+struct WindowGroup {
+  static constexpr int windows = 64;
+  struct Slots {
+    int p, q;
+  } slots[windows];
+  std::uint64_t segments[window_segments];  ///< bit k of number j: window k has more than j segments
+};
+
 struct SelfPair {
   int i, j;
 };
@@ -116,7 +125,7 @@ struct Table {
   /// What contacts added to repeated slots goes to the vertices, then all without padding to `values`.
   void (*fold_cells)(const Shell&, double* padded, double* values);
   void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
-  void (*contact_gradient)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*, std::size_t);
+  void (*contact_gradient)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*, std::size_t);
   /// Appends live terms; returns their number. `factors` must have room for 8 per window and 1 per pair.
   std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*,
                                    std::size_t, double lowest_curvature, ContactFactor* factors);

@@ -34,6 +34,12 @@ SUTURE_INLINE Double8 load(const double* p) {
   for (int i = 0; i < registers; ++i) a.r[i] = *reinterpret_cast<const UnalignedNative*>(p + i * width);
   return a;
 }
+/// Eight numbers of 64 bits, whatever they are.
+SUTURE_INLINE Double8 load_bits(const void* p) {
+  Double8 a;
+  __builtin_memcpy(&a, p, sizeof a);
+  return a;
+}
 SUTURE_INLINE void store(double* p, Double8 a) {
   for (int i = 0; i < registers; ++i) *reinterpret_cast<UnalignedNative*>(p + i * width) = a.r[i];
 }
@@ -164,6 +170,16 @@ SUTURE_OPERATOR(^)
 SUTURE_INLINE Mask8 operator~(Mask8 a) {
   for (int i = 0; i < registers; ++i) a.m[i] = ~a.m[i];
   return a;
+}
+alignas(64) constexpr long long lane_bit[lanes] = {1, 2, 4, 8, 16, 32, 64, 128};
+/// Lane k where bit k is set.
+SUTURE_INLINE Mask8 from_bits(unsigned bits) {
+  Mask8 r;
+  for (int i = 0; i < registers; ++i) {
+    const NativeMask own = *reinterpret_cast<const NativeMask*>(lane_bit + i * width);
+    r.m[i] = ((NativeMask{} + static_cast<long long>(bits)) & own) == own;
+  }
+  return r;
 }
 #endif
 SUTURE_INLINE Mask8 less(Double8 a, double b) { return less(a, broadcast(b)); }

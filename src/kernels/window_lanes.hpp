@@ -34,11 +34,18 @@ SUTURE_INLINE Double8 broadcast_halves(double p, double q) {
   return a;
 #endif
 }
-/// The bit patterns as integers, plus n.
-SUTURE_INLINE Double8 add_bits(Double8 a, const long long* n) {
-  typedef long long Bits __attribute__((vector_size(width * 8), may_alias));
+/// The same 64 bits in every lane.
+SUTURE_INLINE Double8 bit_pattern(long long n) {
+  typedef long long Bits __attribute__((vector_size(width * 8)));
+  Double8 a;
+  for (int i = 0; i < registers; ++i) a.r[i] = reinterpret_cast<Native>(Bits{} + n);
+  return a;
+}
+/// The sums of the bit patterns as integers.
+SUTURE_INLINE Double8 add_bits(Double8 a, Double8 n) {
+  typedef long long Bits __attribute__((vector_size(width * 8)));
   for (int i = 0; i < registers; ++i)
-    a.r[i] = reinterpret_cast<Native>(reinterpret_cast<Bits>(a.r[i]) + *reinterpret_cast<const Bits*>(n + i * width));
+    a.r[i] = reinterpret_cast<Native>(reinterpret_cast<Bits>(a.r[i]) + reinterpret_cast<Bits>(n.r[i]));
   return a;
 }
 /// Lane k of each half receives lane k - 1 of it; its first lane receives zero.
@@ -69,6 +76,50 @@ SUTURE_INLINE Mask8 first_lanes_halves(int m, int n) {
   Mask8 r;
   for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = k < 4 ? p[k] : q[k - 4];
   return r;
+#endif
+}
+
+/// Lane k from p + i[2 k]; i is every other number of sixteen.
+SUTURE_INLINE Double8 load_each(const double* p, const int* i) {
+#if defined(__AVX512F__)
+  return {{_mm512_i32gather_pd(_mm512_cvtepi64_epi32(_mm512_loadu_si512(i)), p, 8)}};
+#else
+  Double8 a;
+  for (int k = 0; k < registers; ++k) {
+    const int* j = i + 2 * k * width;
+#if defined(__AVX2__)
+    a.r[k] = _mm256_set_pd(p[j[6]], p[j[4]], p[j[2]], p[j[0]]);
+#else
+    a.r[k] = _mm_set_pd(p[j[2]], p[j[0]]);
+#endif
+  }
+  return a;
+#endif
+}
+/// Lane k of a[m] from p + i[2 k] + m.
+SUTURE_INLINE void load_quads(const double* p, const int* i, Double8* a) {
+#if defined(__AVX512F__)
+  const Double8 r0 = load_halves(p + i[0], p + i[4]), r1 = load_halves(p + i[2], p + i[6]);
+  const Double8 r2 = load_halves(p + i[8], p + i[12]), r3 = load_halves(p + i[10], p + i[14]);
+  const __m512d even0 = _mm512_unpacklo_pd(r0.r[0], r1.r[0]), odd0 = _mm512_unpackhi_pd(r0.r[0], r1.r[0]);
+  const __m512d even1 = _mm512_unpacklo_pd(r2.r[0], r3.r[0]), odd1 = _mm512_unpackhi_pd(r2.r[0], r3.r[0]);
+  a[0].r[0] = _mm512_shuffle_f64x2(even0, even1, 0x88), a[1].r[0] = _mm512_shuffle_f64x2(odd0, odd1, 0x88);
+  a[2].r[0] = _mm512_shuffle_f64x2(even0, even1, 0xdd), a[3].r[0] = _mm512_shuffle_f64x2(odd0, odd1, 0xdd);
+#elif defined(__AVX2__)
+  for (int k = 0; k < registers; ++k, i += 2 * width) {
+    const __m256d r0 = _mm256_loadu_pd(p + i[0]), r1 = _mm256_loadu_pd(p + i[2]);
+    const __m256d r2 = _mm256_loadu_pd(p + i[4]), r3 = _mm256_loadu_pd(p + i[6]);
+    const __m256d even0 = _mm256_unpacklo_pd(r0, r1), odd0 = _mm256_unpackhi_pd(r0, r1);
+    const __m256d even1 = _mm256_unpacklo_pd(r2, r3), odd1 = _mm256_unpackhi_pd(r2, r3);
+    a[0].r[k] = _mm256_permute2f128_pd(even0, even1, 0x20), a[1].r[k] = _mm256_permute2f128_pd(odd0, odd1, 0x20);
+    a[2].r[k] = _mm256_permute2f128_pd(even0, even1, 0x31), a[3].r[k] = _mm256_permute2f128_pd(odd0, odd1, 0x31);
+  }
+#else
+  for (int k = 0; k < registers; ++k, i += 2 * width)
+    for (int half = 0; half < 4; half += 2) {
+      const __m128d r0 = _mm_loadu_pd(p + i[0] + half), r1 = _mm_loadu_pd(p + i[2] + half);
+      a[half].r[k] = _mm_unpacklo_pd(r0, r1), a[half + 1].r[k] = _mm_unpackhi_pd(r0, r1);
+    }
 #endif
 }
 

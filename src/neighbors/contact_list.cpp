@@ -18,22 +18,15 @@ void ContactList::build(const kernels::Shell& shell, const kernels::Table& kerne
     return !lists_[schedule_.list_between(s, t)].windows.empty() ||
            !lists_[schedule_.list_between(t, s)].windows.empty();
   });
-  active_bands_ = 0;
-  age(0.0, workers);
+  workers.for_each(schedule_.lists(), [&](int k) { lists_[k].groups.assign(lists_[k].windows); });
+  active_bands_ = 1;
+  age(0.0);
 }
 
-void ContactList::age(double moved, WorkerPool& workers) {
+void ContactList::age(double moved) {
   const int wanted =
       skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
-  if (wanted <= active_bands_) return;
-  active_bands_ = wanted;
-  workers.for_each(schedule_.lists(), [&](int k) { activate(lists_[k]); });
-}
-
-void ContactList::activate(Entries& entries) const {
-  entries.active.clear();
-  for (const kernels::Window& window : entries.windows)
-    if (window.band < active_bands_) entries.active.push_back(window);
+  active_bands_ = std::max(active_bands_, wanted);
 }
 
 int ContactList::band_of(double distance2) const {

@@ -14,6 +14,7 @@
 
 #include "kernels/kernels.hpp"
 #include "neighbors/contact_schedule.hpp"
+#include "neighbors/window_groups.hpp"
 #include "threads/worker_pool.hpp"
 
 namespace suture {
@@ -21,10 +22,10 @@ namespace suture {
 class ContactList {
  public:
   /// Band 0 was within reach when the list was built; the others divide the skin evenly.
-  static constexpr int bands = 5;
+  static constexpr int bands = WindowGroups::bands;
   struct Entries {
     std::vector<kernels::Window> windows;  ///< by the vertex's cell, vertex and other cell
-    std::vector<kernels::Window> active;   ///< what can be in reach, in the same order
+    WindowGroups groups;                   ///< the same
     std::vector<kernels::SelfPair> self_pairs;
   };
 
@@ -37,10 +38,12 @@ class ContactList {
   void build(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers = WorkerPool::alone());
 
   /// Says how far the farthest vertex has moved since, at most skin/2. Active bands stay active.
-  void age(double moved, WorkerPool& workers);
+  void age(double moved);
 
   const ContactSchedule& schedule() const { return schedule_; }
   const Entries& entries(int list) const { return lists_[list]; }
+  /// How many windows of entries(list).groups can be in reach.
+  std::size_t active(int list) const { return lists_[list].groups.windows(active_bands_); }
   double skin() const { return skin_; }
 
  private:
@@ -66,7 +69,6 @@ class ContactList {
   void cut_windows(Scratch& scratch, int slot, int first_slot, int n, std::vector<kernels::Window>& windows) const;
   void cut_run(std::span<const int> run, const Scratch& scratch, int slot, int first_slot, std::vector<kernels::Window>& windows) const;
   int band_of(double distance2) const;
-  void activate(Entries& entries) const;
   void add_self_pairs(Entries& entries, const kernels::Shell& shell, int cell) const;
 
   double reach_ = 0.0, self_reach_ = 0.0, skin_ = 0.0;

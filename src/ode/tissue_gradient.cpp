@@ -85,13 +85,13 @@ bool TissueGradient::add_cells(const StateView& state) {
     workers.for_each(padded.blocks(), shell);
     if (!unhealthy) rebuild(state);
   } else {
-    list.age(moved, workers);
+    list.age(moved);
   }
   if (!unhealthy)
     list.schedule().for_each_list(workers, [&](int k) {
       if (!worn && k < padded.blocks()) shell(k);
       const ContactList::Entries& entries = list.entries(k);
-      kernel.contact_gradient(padded.shell, contact, entries.active.data(), entries.active.size(), entries.self_pairs.data(),
+      kernel.contact_gradient(padded.shell, contact, entries.groups.data(), list.active(k), entries.self_pairs.data(),
                               entries.self_pairs.size());
     });
   if (unhealthy) explain_unhealthy();

@@ -116,7 +116,9 @@ TEST_CASE("a divided tissue has the forces of an undivided one", "[property][thr
                                         outer * (1 + l2) / s, -outer / (s * s), s * s};
   const ContactParameters law = contact_law(contact_distance);
   REQUIRE((law.energy == e && law.adhesion == l1 && law.range == l2));
-  kernels::best().contact_gradient(padded.shell, contact, all.windows.data(), all.windows.size(), all.self_pairs.data(), all.self_pairs.size());
+  WindowGroups groups;
+  groups.assign(all.windows);
+  kernels::best().contact_gradient(padded.shell, contact, groups.data(), groups.windows(), all.self_pairs.data(), all.self_pairs.size());
   padded.fold_and_pack(padded.shell.gx, whole);
   CHECK(largest_difference(whole, std::span(gradient).first(whole.size())) < 1e-12 * largest(whole));
   CHECK(largest(whole) > 1.0);

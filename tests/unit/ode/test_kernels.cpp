@@ -43,7 +43,9 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   const kernels::ContactScalars contact = scalars(0.2, 0.1, 0.3);
   const std::vector<kernels::Window>& windows = list.entries(0).windows;
   const std::vector<kernels::SelfPair>& pairs = list.entries(0).self_pairs;
-  table.contact_gradient(padded.shell, contact, windows.data(), windows.size(), pairs.data(), pairs.size());
+  WindowGroups groups;
+  groups.assign(windows);
+  table.contact_gradient(padded.shell, contact, groups.data(), groups.windows(), pairs.data(), pairs.size());
   std::vector<double> result{static_cast<double>(windows.size())};
   std::vector<double> part(n);
   const auto keep = [&](double* padded_values) {
