@@ -58,8 +58,9 @@ SUTURE_INLINE Double8 slots_of(const Window& a, const Window& b) {
 }
 
 struct LiveTerms {
-  static constexpr int full = 64,
-                       room = 2 * full + lanes;  ///< packing writes beyond
+  static constexpr int full = 64, most = WindowGroup::windows * (2 * suture::kernels::window_segments + 1),
+                       room = most + lanes;  ///< packing writes beyond
+  int count = 0;
   /// From the nearest point to the vertex; where on the segment that is, 0 for a point, with the sign bit for a term
   /// that is subtracted.
   alignas(64) double rx[room], ry[room], t[room];
@@ -190,7 +191,7 @@ SUTURE_INLINE GroupTerms find_terms(const GroupPlaces& places, const WindowGroup
 }
 
 /// Returns the number of terms with those of one batch.
-SUTURE_INLINE int pack(const ContactScalars& c, const WindowGroup& group, int batch, const GroupPlaces& places,
+SUTURE_INLINE int pack_batch(const ContactScalars& c, const WindowGroup& group, int batch, const GroupPlaces& places,
                        const GroupTerms& found, LiveTerms& terms, int count) {
   const double(*x)[lanes] = places.dx[batch], (*y)[lanes] = places.dy[batch];
   Double8 rx = load(x[0]), ry = load(y[0]), nx = load(x[1]), ny = load(y[1]), next{};  // from this point and the next
@@ -232,59 +233,68 @@ SUTURE_INLINE int append(const ContactScalars& c, const WindowGroup& group, int 
   return count;
 }
 
+SUTURE_INLINE void pack(const ContactScalars& c, const WindowGroup& group, int used, const GroupPlaces& places, LiveTerms& terms) {
+  const GroupTerms found = find_terms(places, group, used);
+  int count = 0;
+  for (std::uint64_t m = found.several.all; m != 0; m &= m - 1)
+    count = append(c, group, __builtin_ctzll(m), places, found, terms, count);
+  for (int batch = 0; batch < used; ++batch) count = pack_batch(c, group, batch, places, found, terms, count);
+  terms.count = count;
+}
+
 /// Adds the forces of the terms collected, in their order.
 void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms, int count) {
-  struct {
-    alignas(64) double x[LiveTerms::room], y[LiveTerms::room];
-  } on_vertex, on_first, on_second;  // dU/dr of the vertex, and minus that of the segment's ends
+  typedef double Pair __attribute__((vector_size(16), may_alias));
+  alignas(64) double on_vertex[2 * LiveTerms::room], on_first[2 * LiveTerms::room],
+      on_second[2 * LiveTerms::room];  // dU/dr of the vertex, and minus that of the segment's ends
   for (int k = 0; k < count; k += lanes) {
     const Double8 x = load(terms.rx + k), y = load(terms.ry + k), t = load(terms.t + k);
     const Double8 f = with_sign_of(force_over_distance(c, x * x + y * y), t);
     const Double8 fx = f * x, fy = f * y;
-    store(on_vertex.x + k, fx);
-    store(on_vertex.y + k, fy);
-    store(on_second.x + k, t * fx);
-    store(on_second.y + k, t * fy);
-    store(on_first.x + k, fx - t * fx);
-    store(on_first.y + k, fy - t * fy);
+    store_pairs(on_vertex + 2 * k, fx, fy);
+    store_pairs(on_second + 2 * k, t * fx, t * fy);
+    store_pairs(on_first + 2 * k, fx - t * fx, fy - t * fy);
   }
-  for (int k = 0; k < count; ++k) {
+  const auto add = [&](int k, int pair) {
     const TermSlots at = terms.at(k);
-    s.gx[at.p] += on_vertex.x[k];
-    s.gy[at.p] += on_vertex.y[k];
-    s.gx[at.q] -= on_first.x[k];
-    s.gy[at.q] -= on_first.y[k];
-    s.gx[at.q + 1] -= on_second.x[k];
-    s.gy[at.q + 1] -= on_second.y[k];
-  }
+    Pair *p = reinterpret_cast<Pair*>(s.contact) + at.p, *q = reinterpret_cast<Pair*>(s.contact) + at.q;
+    p[0] += *reinterpret_cast<const Pair*>(on_vertex + pair);
+    q[0] -= *reinterpret_cast<const Pair*>(on_first + pair);
+    q[1] -= *reinterpret_cast<const Pair*>(on_second + pair);
+  };
+  int k = 0;
+  for (; k + lanes <= count; k += lanes)
+    for (int m = 0; m < lanes; m += 2) {
+      add(k + m, 2 * k + m);
+      add(k + m + 1, 2 * k + lanes + m);
+    }
+  for (int m = 0; k + m < count; ++m) add(k + m, 2 * k + m % 2 * lanes + m - m % 2);
 }
 
 void contact_gradient(const Shell& s, const ContactScalars& c, const WindowGroup* groups, std::size_t windows,
                       const SelfPair* pairs, std::size_t pair_count) {
-  LiveTerms terms;
-  GroupPlaces places;
-  for (std::size_t first = 0; first < windows; first += WindowGroup::windows) {
-    const WindowGroup& group = groups[first / WindowGroup::windows];
-    const int used = static_cast<int>((std::min(windows - first, std::size_t{WindowGroup::windows}) + lanes - 1) / lanes);
-    for (int batch = 0; batch < used; ++batch) place(s, c, group, batch, places);
-    const GroupTerms found = find_terms(places, group, used);
-    int count = 0;
-    for (std::uint64_t m = found.several.all; m != 0; m &= m - 1) {
-      count = append(c, group, __builtin_ctzll(m), places, found, terms, count);
-      if (count < LiveTerms::full) continue;
-      apply(s, c, terms, count);
-      count = 0;
-    }
-    for (int batch = 0; batch < used; ++batch) count = pack(c, group, batch, places, found, terms, count);
-    apply(s, c, terms, count);
+  // What a pass stores the next one reads in other pieces, which a store just made would hold up. So the passes work on
+  // successive groups.
+  const int count = static_cast<int>((windows + WindowGroup::windows - 1) / WindowGroup::windows);
+  const auto used = [&](int k) {
+    const std::size_t left = windows - static_cast<std::size_t>(k) * WindowGroup::windows;
+    return static_cast<int>((std::min(left, std::size_t{WindowGroup::windows}) + lanes - 1) / lanes);
+  };
+  GroupPlaces places[2];
+  LiveTerms terms[2];
+  for (int k = 0; k < count + 2; ++k) {
+    if (k < count)
+      for (int batch = 0; batch < used(k); ++batch) place(s, c, groups[k], batch, places[k % 2]);
+    if (k >= 1 && k <= count) pack(c, groups[k - 1], used(k - 1), places[(k - 1) % 2], terms[(k - 1) % 2]);
+    if (k >= 2) apply(s, c, terms[k % 2], terms[k % 2].count);
   }
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
     if (d2 >= c.self2) continue;
     const double f = c.inner_a / std::sqrt(d2) + c.inner_b;
-    s.gx[i] += f * dx, s.gy[i] += f * dy;
-    s.gx[j] -= f * dx, s.gy[j] -= f * dy;
+    s.contact[2 * i] += f * dx, s.contact[2 * i + 1] += f * dy;
+    s.contact[2 * j] -= f * dx, s.contact[2 * j + 1] -= f * dy;
   }
 }
 

@@ -32,7 +32,8 @@ struct Shell {
   /// eliminated implicit step otherwise (numerics.md, "Eliminating the rest lengths").
   double *rest_a = nullptr, *rest_b = nullptr;
   const double* stiffness = nullptr;  ///< quadratic: k_l/l0(0)^2; relative: k_l
-  double *gx = nullptr, *gy = nullptr;  ///< dU/dr; room to work in at other times
+  double *gx = nullptr, *gy = nullptr;  ///< dU/dr without contacts; room to work in at other times
+  double* contact = nullptr;            ///< dU/dr of contacts, (x, y) per slot: both are added to at once
   double* area = nullptr;               ///< per cell
 };
 
@@ -68,6 +69,8 @@ struct ContactScalars {
 
 /// Segments of one window at most; with their last end point they fill half a vector.
 constexpr int window_segments = 3;
+/// Slots after a cell's vertices that the contact gradient adds to, if only zero to the last.
+constexpr int contact_halo = window_segments + 1;
 
 /// Vertex p against `segments` <= window_segments consecutive segments that start at slot q of another cell. The kernels
 /// do not look at `band` (contact_list.hpp).
@@ -116,14 +119,15 @@ struct CellRows {
 
 struct Table {
   const char* name;
-  /// Fills the slots; lengths, angles and dU/dr of the shell; overwrites gx, gy including the halo. False if an area, a
-  /// length or a rest length is not positive.
+  /// Fills the slots; lengths, angles and dU/dr of the shell; clears that of contacts. False if an area, a length or a rest
+  /// length is not positive.
   bool (*shell_gradient)(const Shell&, const ShellInput&);
   void (*shell_linearise)(const Shell&, const ShellHessian&);
   /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded. Overwrites gx, gy.
   void (*shell_product)(const Shell&, const ShellHessian&);
   /// What contacts added to repeated slots goes to the vertices, then all without padding to `values`.
   void (*fold_cells)(const Shell&, double* padded, double* values);
+  void (*fold_gradient)(const Shell&, double* gx, double* gy);  ///< the same for dU/dr, of shell and contacts
   void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
   void (*contact_gradient)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*, std::size_t);
   /// Appends live terms; returns their number. `factors` must have room for 8 per window and 1 per pair.

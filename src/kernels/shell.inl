@@ -113,10 +113,8 @@ inline void gather_forces(const Shell& s, int cell) {
     store(s.gx + j, load(s.gx + j - 1) - load(s.gx + j) + half_pressure * ey);
     store(s.gy + j, load(s.gy + j - 1) - load(s.gy + j) - half_pressure * ex);
   }
-  for (double* g : {s.gx + b, s.gy + b}) {  // contacts accumulate into the halo next
-    g[0] = 0.0;
-    for (int k = 1; k < suture::kernels::halo; ++k) g[n + k] = 0.0;
-  }
+  static_assert(contact_halo + 1 + lanes <= suture::kernels::halo + lanes);
+  for (int k = 2 * b; k < 2 * (b + n + contact_halo + 1); k += lanes) store(s.contact + k, Double8{});
 }
 
 bool shell_gradient(const Shell& s, const ShellInput& in) {
@@ -221,6 +219,27 @@ void fold_cells(const Shell& s, double* padded, double* values) {
       for (int k = n - n % lanes; k < n; ++k) values[k] = a[1 + k];
     }
     values += n;
+  }
+}
+
+void fold_gradient(const Shell& s, double* gx, double* gy) {
+  for (int cell = 0; cell < s.cells; ++cell) {
+    const int b = s.base[cell] + 1, n = s.count[cell];
+    double* contact = s.contact + 2 * b;
+    if (n >= contact_halo) {
+      static_assert(2 * contact_halo == lanes);
+      store(contact, load(contact) + load(contact + 2 * n));
+    } else {
+      for (int k = 2 * contact_halo - 1; k >= 0; --k) contact[k] += contact[2 * n + k];
+    }
+    int k = 0;
+    for (; k + lanes <= n; k += lanes) {
+      const Pairs8 c = load_pairs(contact + 2 * k);
+      store(gx + k, load(s.gx + b + k) + c.x);
+      store(gy + k, load(s.gy + b + k) + c.y);
+    }
+    for (; k < n; ++k) gx[k] = s.gx[b + k] + contact[2 * k], gy[k] = s.gy[b + k] + contact[2 * k + 1];
+    gx += n, gy += n;
   }
 }
 

@@ -43,6 +43,44 @@ SUTURE_INLINE Double8 load_bits(const void* p) {
 SUTURE_INLINE void store(double* p, Double8 a) {
   for (int i = 0; i < registers; ++i) *reinterpret_cast<UnalignedNative*>(p + i * width) = a.r[i];
 }
+struct Pairs8 {
+  Double8 x, y;
+};
+/// Eight (x, y) from p on.
+SUTURE_INLINE Pairs8 load_pairs(const double* p) {
+  Pairs8 c;
+#if defined(__AVX512F__)
+  const Double8 a = load(p), b = load(p + lanes);
+  const __m512i even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
+  c.x.r[0] = _mm512_permutex2var_pd(a.r[0], even, b.r[0]), c.y.r[0] = _mm512_permutex2var_pd(a.r[0], odd, b.r[0]);
+#else
+  for (int i = 0; i < registers; ++i, p += 2 * width) {
+    const Native a = *reinterpret_cast<const UnalignedNative*>(p), b = *reinterpret_cast<const UnalignedNative*>(p + width);
+#if defined(__AVX2__)
+    c.x.r[i] = _mm256_permute4x64_pd(_mm256_unpacklo_pd(a, b), 0xd8);
+    c.y.r[i] = _mm256_permute4x64_pd(_mm256_unpackhi_pd(a, b), 0xd8);
+#else
+    c.x.r[i] = _mm_unpacklo_pd(a, b);
+    c.y.r[i] = _mm_unpackhi_pd(a, b);
+#endif
+  }
+#endif
+  return c;
+}
+/// Stores (x, y) of lane k at p + 8 (k % 2) + k - k % 2.
+SUTURE_INLINE void store_pairs(double* p, Double8 x, Double8 y) {
+  for (int i = 0; i < registers; ++i) {
+#if defined(__AVX512F__)
+    const Native even = _mm512_unpacklo_pd(x.r[i], y.r[i]), odd = _mm512_unpackhi_pd(x.r[i], y.r[i]);
+#elif defined(__AVX2__)
+    const Native even = _mm256_unpacklo_pd(x.r[i], y.r[i]), odd = _mm256_unpackhi_pd(x.r[i], y.r[i]);
+#else
+    const Native even = _mm_unpacklo_pd(x.r[i], y.r[i]), odd = _mm_unpackhi_pd(x.r[i], y.r[i]);
+#endif
+    *reinterpret_cast<UnalignedNative*>(p + i * width) = even;
+    *reinterpret_cast<UnalignedNative*>(p + lanes + i * width) = odd;
+  }
+}
 SUTURE_INLINE Double8 broadcast(double a) {
   Double8 b;
   for (int i = 0; i < registers; ++i) b.r[i] = a - Native{};

@@ -35,13 +35,14 @@ void PaddedTissue::take_arrays(const Tissue& tissue) {
   pressure_.resize(base_.size());
   area_curvature_.resize(base_.size());
 
-  constexpr int arrays = 23;
+  constexpr int arrays = 25;
   buffer_ = AlignedBuffer(static_cast<std::size_t>(arrays) * (slots_ + 8));
   double* stiffness = nullptr;
   for (double** array : {&shell.x, &shell.y, &shell.ex, &shell.ey, &shell.length, &shell.inverse_length, &shell.theta,
                          &shell.rest_a, &shell.rest_b, &stiffness, &shell.gx, &shell.gy, &hessian.sxx, &hessian.sxy,
                          &hessian.syy, &hessian.nx, &hessian.ny, &hessian.ax, &hessian.ay, &hessian.vx, &hessian.vy, &hessian.ox, &hessian.oy})
     *array = buffer_.take(slots_);
+  shell.contact = buffer_.take(2 * slots_);
   for (int c = 0; c < tissue.cell_count(); ++c)
     for (int k = 0; k < count_[c] + kernels::halo; ++k) {
       const double length = tissue.initial_rest_length(vertex_of_[base_[c] + k]);
@@ -100,6 +101,11 @@ void PaddedTissue::unpack(std::span<const double> values, double* padded, int bl
 
 void PaddedTissue::fold_and_pack(double* padded, std::span<double> values, int block) const {
   kernels::best().fold_cells(shell_of(block), padded, values.data() + vertices_of(block).begin);
+}
+
+void PaddedTissue::pack_gradient(std::span<double> gx, std::span<double> gy, int block) const {
+  const std::size_t first = vertices_of(block).begin;
+  kernels::best().fold_gradient(shell_of(block), gx.data() + first, gy.data() + first);
 }
 
 void PaddedTissue::unpack(std::span<const double> values, double* padded) const {

@@ -35,6 +35,7 @@ class PaddedTissue {
   // Copies, of one block (`values` are the whole tissue's) or of everything.
   void unpack(std::span<const double> values, double* padded, int block) const;
   void fold_and_pack(double* padded, std::span<double> values, int block) const;
+  void pack_gradient(std::span<double> gx, std::span<double> gy, int block = 0) const;
   /// padded <- contiguous, halo included.
   void unpack(std::span<const double> values, double* padded) const;
   /// Folds the halo of an accumulated array onto its vertices, then packs.

@@ -98,11 +98,6 @@ bool TissueGradient::add_cells(const StateView& state) {
   return !unhealthy;
 }
 
-void TissueGradient::pack(std::span<double> gx, std::span<double> gy, int block) {
-  padded.fold_and_pack(padded.shell.gx, gx, block);
-  padded.fold_and_pack(padded.shell.gy, gy, block);
-}
-
 void TissueGradient::add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy) {
   MutableStateView gradient;
   gradient.x = gx, gradient.y = gy;

@@ -35,12 +35,12 @@ class TissueGradient {
     std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
     const bool at_once = extra.empty();  // a block is finished while it is in the cache
     if (!at_once) {
-      workers.for_each(padded.blocks(), [&](int block) { pack(gx, gy, block); });
+      workers.for_each(padded.blocks(), [&](int block) { padded.pack_gradient(gx, gy, block); });
       add_terms(t, state, gx, gy);
     }
     std::atomic<bool> bad = false;
     workers.for_each(padded.blocks(), [&](int block) {
-      if (at_once) pack(gx, gy, block);
+      if (at_once) padded.pack_gradient(gx, gy, block);
       if (!finish(block)) bad = true;
     });
     if (!bad) return Evaluation::ok;
@@ -69,7 +69,6 @@ class TissueGradient {
   bool add_cells(const StateView& state);
   bool add_shell(const StateView& state, int block);
   double largest_move(const StateView& state);
-  void pack(std::span<double> gx, std::span<double> gy, int block);
   void add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
   void explain_unhealthy();
   void explain_infinite(std::span<const double> gx, std::span<const double> gy);

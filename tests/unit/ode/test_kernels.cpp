@@ -52,8 +52,10 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
     padded.fold_and_pack(padded_values, part);
     result.insert(result.end(), part.begin(), part.end());
   };
-  keep(padded.shell.gx);
-  keep(padded.shell.gy);
+  std::vector<double> gx(n), gy(n);
+  table.fold_gradient(padded.shell, gx.data(), gy.data());
+  result.insert(result.end(), gx.begin(), gx.end());
+  result.insert(result.end(), gy.begin(), gy.end());
   table.shell_linearise(padded.shell, padded.hessian);
   std::vector<kernels::ContactFactor> factors(16 * windows.size() + pairs.size());
   const std::size_t count =
