@@ -32,8 +32,8 @@ struct Shell {
   /// eliminated implicit step otherwise (numerics.md, "Eliminating the rest lengths").
   double *rest_a = nullptr, *rest_b = nullptr;
   const double* stiffness = nullptr;  ///< quadratic: k_l/l0(0)^2; relative: k_l
-  double *gx = nullptr, *gy = nullptr;  ///< dU/dr without contacts; room to work in at other times
-  double* contact = nullptr;            ///< dU/dr of contacts, (x, y) per slot: both are added to at once
+  double* gradient = nullptr;           ///< dU/dr, (x, y) per slot, which contacts add to at once
+  double *gx = nullptr, *gy = nullptr;  ///< room to work in
   double* area = nullptr;               ///< per cell
 };
 
@@ -50,7 +50,8 @@ struct RestLengthFlow {
   double* rate = nullptr;
 };
 
-/// Second derivatives of the shell at one point (see shell_linearise).
+/// Second derivatives of the shell at one point (see shell_linearise), at the slots of the vertices; nx, ny also at the slot
+/// before and the one after.
 struct ShellHessian {
   double *sxx = nullptr, *sxy = nullptr, *syy = nullptr;  ///< d2U/de2 of one segment
   double *nx = nullptr, *ny = nullptr;                    ///< d(phi)/de of one segment
@@ -69,6 +70,7 @@ struct ContactScalars {
 
 /// Segments of one window at most; with their last end point they fill half a vector.
 constexpr int window_segments = 3;
+constexpr int window_terms = 2 * window_segments + 1;
 /// Slots after a cell's vertices that the contact gradient adds to, if only zero to the last.
 constexpr int contact_halo = window_segments + 1;
 
@@ -119,19 +121,19 @@ struct CellRows {
 
 struct Table {
   const char* name;
-  /// Fills the slots; lengths, angles and dU/dr of the shell; clears that of contacts. False if an area, a length or a rest
-  /// length is not positive.
+  /// Fills the slots; lengths, angles and dU/dr of the shell. False if an area, a length or a rest length is not positive.
   bool (*shell_gradient)(const Shell&, const ShellInput&);
   void (*shell_linearise)(const Shell&, const ShellHessian&);
   /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded. Overwrites gx, gy.
   void (*shell_product)(const Shell&, const ShellHessian&);
   /// What contacts added to repeated slots goes to the vertices, then all without padding to `values`.
   void (*fold_cells)(const Shell&, double* padded, double* values);
-  void (*fold_gradient)(const Shell&, double* gx, double* gy);  ///< the same for dU/dr, of shell and contacts
+  void (*fold_gradient)(const Shell&, double* gx, double* gy);  ///< the same for dU/dr
   void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
   void (*contact_gradient)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*, std::size_t);
-  /// Appends live terms; returns their number. `factors` must have room for 8 per window and 1 per pair.
-  std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const Window*, std::size_t, const SelfPair*,
+  /// Appends live terms; returns their number. `factors` must have room for window_terms per window and 1 per pair. Needs what
+  /// shell_linearise puts into slots that repeat others.
+  std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*,
                                    std::size_t, double lowest_curvature, ContactFactor* factors);
   void (*contact_product)(const ContactFactor*, std::size_t, const double* vx, const double* vy, double* ox, double* oy);
   /// blocks: (xx, xy, yy, unused) per slot; adds the blocks that the normal curvature has on the diagonal.

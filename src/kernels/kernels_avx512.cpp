@@ -10,6 +10,7 @@ namespace {
 using namespace suture::kernels;
 
 #include "kernels/cell_rows.inl"
+#include "kernels/contact_terms.inl"
 #include "kernels/contact.inl"
 #include "kernels/cyclic.inl"
 #include "kernels/shell.inl"

@@ -3,7 +3,8 @@
 //     dU/de_i = T_i e_i/l_i + k_b (theta_i - theta_{i+1}) n_i/l_i,   n_i = e_i rotated by +90 degrees / l_i,
 //     dU/dr_i = dU/de_{i-1} - dU/de_i + dU/da da/dr_i.
 
-inline int padded_lanes(int n) { return (n + 2 + lanes - 1) / lanes * lanes; }
+// A cell's slots 1 .. n fill whole vectors, aligned; the last one may go on into the slots that repeat the first vertices.
+inline int padded_lanes(int n) { return (n + lanes - 1) / lanes * lanes; }
 
 struct Tension {
   Double8 force, stiffness;
@@ -12,10 +13,10 @@ struct Tension {
 /// dU/dl at rest length `rest`, and its derivative along a line of rest lengths of slope b.
 SUTURE_INLINE Tension tension(bool relative, Double8 k, Double8 rest, Double8 b, Double8 l) {
   if (!relative) return {k * (l - rest), k * (1.0 - b)};
-  const Double8 inverse = 1.0 / rest;
-  const Double8 ratio = l * inverse;
-  const Double8 scale = k * inverse * inverse;
-  return {k * inverse * (ratio - 1.0), scale * (1.0 + b * (1.0 - 2.0 * ratio))};
+  const Double8 over_rest = inverse(rest);
+  const Double8 ratio = l * over_rest;
+  const Double8 scale = k * over_rest * over_rest;
+  return {k * over_rest * (ratio - 1.0), scale * (1.0 + b * (1.0 - 2.0 * ratio))};
 }
 
 /// Signed turning angle from (ex0, ey0) to (ex1, ey1), lengths l0, l1; in (-pi, pi].
@@ -25,7 +26,7 @@ SUTURE_INLINE Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double
   const Double8 d = l0 * l1 + dot;
   const Double8 h = d * d + cross * cross;
   const Double8 w = cross * inverse(d + h * inverse_square_root(h));  // tan(theta/4)
-  Double8 angle = 4.0 * small_arctangent(w);
+  Double8 angle = four_arctangents(w);
   const unsigned large = bits(~(less(w, 0.4143) & less(-0.4143, w)));  // beyond a right angle, or degenerate
   if (large != 0) [[unlikely]] {
     double exact[lanes];
@@ -37,6 +38,17 @@ SUTURE_INLINE Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double
     angle = load(exact);
   }
   return angle;
+}
+
+/// vector(k) for vectors of eight that begin at k and cover 0 .. n-1, the last two overlapping; one(k) for n < 8.
+template <class Vector, class One>
+SUTURE_INLINE void for_vectors(int n, Vector&& vector, One&& one) {
+  if (n < lanes) {
+    for (int k = 0; k < n; ++k) one(k);
+    return;
+  }
+  for (int k = 0; k + lanes < n; k += lanes) vector(k);
+  vector(n - lanes);
 }
 
 /// Slots 1 .. n of a cell and those that repeat them.
@@ -55,66 +67,62 @@ SUTURE_INLINE void fill_slots(const double* vertices, double* a, int n) {
 }
 
 inline void segments_and_area(const Shell& s, int cell) {
-  const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
-  const double x0 = s.x[b + 1], y0 = s.y[b + 1];
+  const int b = s.base[cell] + 1, n = s.count[cell];
+  const Double8 x0 = broadcast(s.x[b]), y0 = broadcast(s.y[b]);
   Double8 twice_area{};
-  for (int j = b; j < b + m; j += lanes) {
+  for (int k = 0; k < n; k += lanes) {
+    const int j = b + k;
     const Double8 x = load(s.x + j), y = load(s.y + j);
     const Double8 ex = load(s.x + j + 1) - x, ey = load(s.y + j + 1) - y;
     const Double8 l2 = ex * ex + ey * ey;
     const Double8 inverse = inverse_square_root(l2);
-    const Double8 l = select(less(0.0, l2), l2 * inverse, l2);  // an exact zero is reported as such
     store(s.ex + j, ex);
     store(s.ey + j, ey);
-    store(s.length + j, l);
+    store(s.length + j, select(less(0.0, l2), l2 * inverse, l2));  // an exact zero is reported as such
     store(s.inverse_length + j, inverse);
-    const Mask8 own = first_lanes(n + 1 - (j - b)) & ~first_lanes(1 - (j - b));  // slots 1 .. n
-    twice_area += select(own, (x - x0) * ey - (y - y0) * ex, Double8{});
+    twice_area += only(first_lanes(n - k), (x - x0) * ey - (y - y0) * ex);
   }
   s.area[cell] = 0.5 * sum(twice_area);
-  s.ex[b - 1] = s.ex[b], s.ey[b - 1] = s.ey[b], s.length[b - 1] = s.length[b];  // the unused angle at slot 0 is benign
-  for (double* a : {s.ex, s.ey, s.inverse_length})  // the contact windows read these beyond the last vertex
-    for (int k = 1; k < suture::kernels::halo - 1; ++k) a[b + n + k] = a[b + k];
+  for (double* a : {s.ex + b, s.ey + b, s.length + b}) a[-1] = a[n - 1];
 }
 
 inline void turning_angles(const Shell& s, int cell) {
-  const int b = s.base[cell], m = padded_lanes(s.count[cell]);
-  for (int j = b; j < b + m; j += lanes)
+  const int b = s.base[cell] + 1, n = s.count[cell];
+  for (int j = b; j < b + n; j += lanes)
     store(s.theta + j, turning_angle(load(s.ex + j - 1), load(s.ey + j - 1), load(s.length + j - 1), load(s.ex + j),
                                      load(s.ey + j), load(s.length + j)));
+  s.theta[b + n] = s.theta[b];
 }
 
-/// dU/de into gx, gy; false if a length or rest length is not positive.
+/// dU/dr from dU/de; false if a length or rest length is not positive.
 inline bool segment_forces(const Shell& s, int cell, bool rest_lengths_held) {
-  const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+  const int b = s.base[cell] + 1, n = s.count[cell], last = padded_lanes(n) - lanes;
   const Double8 kb = broadcast(s.bending_stiffness[cell]);
+  const double strain = s.area[cell] / s.rest_area[cell] - 1.0;
+  const Double8 half_pressure = broadcast(0.5 * s.area_stiffness[cell] * strain / s.rest_area[cell]);
   Mask8 positive = first_lanes(lanes);  // slots beyond the vertices repeat them: no need to leave them out
-  for (int j = b; j < b + m; j += lanes) {
+  const auto of_segments = [&](int j) -> Pairs8 {
     const Double8 ex = load(s.ex + j), ey = load(s.ey + j), inverse = load(s.inverse_length + j), l = load(s.length + j);
     const Double8 rest = rest_lengths_held ? load(s.rest_a + j) : load(s.rest_a + j) + load(s.rest_b + j) * l;
     positive = positive & less(0.0, l) & less(0.0, rest);
     const Double8 along = tension(s.relative_law, load(s.stiffness + j), rest, Double8{}, l).force * inverse;
     const Double8 across = kb * (load(s.theta + j) - load(s.theta + j + 1)) * inverse * inverse;
-    store(s.gx + j, along * ex - across * ey);
-    store(s.gy + j, along * ey + across * ex);
-  }
-  s.gx[b] = s.gx[b + n];
-  s.gy[b] = s.gy[b + n];
-  return bits(~positive) == 0;
-}
-
-/// dU/dr from dU/de, in place: backwards, because a slot needs the one before it.
-inline void gather_forces(const Shell& s, int cell) {
-  const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
-  const double strain = s.area[cell] / s.rest_area[cell] - 1.0;
-  const Double8 half_pressure = broadcast(0.5 * s.area_stiffness[cell] * strain / s.rest_area[cell]);
-  for (int j = b + m - lanes; j >= b; j -= lanes) {
+    return {along * ex - across * ey, along * ey + across * ex};
+  };
+  const Pairs8 at_end = of_segments(b + last);
+  Pairs8 before{lane_to_end(at_end.x, n - 1 - last), lane_to_end(at_end.y, n - 1 - last)};
+  for (int k = 0; k <= last; k += lanes) {
+    const int j = b + k;
+    const Pairs8 here = k == last ? at_end : of_segments(j);
     const Double8 ex = load(s.ex + j) + load(s.ex + j - 1), ey = load(s.ey + j) + load(s.ey + j - 1);
-    store(s.gx + j, load(s.gx + j - 1) - load(s.gx + j) + half_pressure * ey);
-    store(s.gy + j, load(s.gy + j - 1) - load(s.gy + j) - half_pressure * ex);
+    const Mask8 own = first_lanes(n - k);
+    store_pairs(s.gradient + 2 * j, only(own, shift_in(before.x, here.x) - here.x + half_pressure * ey),
+                only(own, shift_in(before.y, here.y) - here.y - half_pressure * ex));
+    before = here;
   }
-  static_assert(contact_halo + 1 + lanes <= suture::kernels::halo + lanes);
-  for (int k = 2 * b; k < 2 * (b + n + contact_halo + 1); k += lanes) store(s.contact + k, Double8{});
+  static_assert(2 * contact_halo == lanes);
+  if (last + lanes < n + contact_halo) store(s.gradient + 2 * (b + last + lanes), Double8{});
+  return bits(~positive) == 0;
 }
 
 bool shell_gradient(const Shell& s, const ShellInput& in) {
@@ -135,7 +143,6 @@ bool shell_gradient(const Shell& s, const ShellInput& in) {
     for (int cell = first; cell < end; ++cell) segments_and_area(s, cell);
     for (int cell = first; cell < end; ++cell) turning_angles(s, cell);
     for (int cell = first; cell < end; ++cell) healthy &= segment_forces(s, cell, in.rest_length != nullptr) & (s.area[cell] > 0.0);
-    for (int cell = first; cell < end; ++cell) gather_forces(s, cell);
   }
   return healthy;
 }
@@ -144,9 +151,11 @@ bool shell_gradient(const Shell& s, const ShellInput& in) {
 /// M = dU/dphi. A compressed segment's negative T/l is left out: the Newton matrix stays definite, the gradient is exact.
 void shell_linearise(const Shell& s, const ShellHessian& h) {
   for (int cell = 0; cell < s.cells; ++cell) {
-    const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+    const int b = s.base[cell] + 1, n = s.count[cell];
+    for (double* a : {s.ex + b, s.ey + b, s.inverse_length + b})  // linearising contacts reads these beyond the last vertex
+      for (int k = 0; k < contact_halo; ++k) a[n + k] = a[k];
     const Double8 kb = broadcast(s.bending_stiffness[cell]);
-    for (int j = b; j < b + m; j += lanes) {
+    for (int j = b; j < b + n; j += lanes) {
       const Double8 inverse = load(s.inverse_length + j);
       const Double8 mx = load(s.ex + j) * inverse, my = load(s.ey + j) * inverse;
       const Double8 l = load(s.length + j), slope = load(s.rest_b + j);
@@ -161,6 +170,7 @@ void shell_linearise(const Shell& s, const ShellHessian& h) {
       store(h.ax + j, 0.5 * (load(s.ey + j) + load(s.ey + j - 1)));
       store(h.ay + j, -0.5 * (load(s.ex + j) + load(s.ex + j - 1)));
     }
+    for (double* a : {h.nx + b, h.ny + b}) a[-1] = a[n - 1], a[n] = a[0];
     const double a0 = s.rest_area[cell];
     h.area_curvature[cell] = s.area_stiffness[cell] / (a0 * a0);
     h.pressure[cell] = s.area_stiffness[cell] * (s.area[cell] / a0 - 1.0) / a0;
@@ -170,33 +180,36 @@ void shell_linearise(const Shell& s, const ShellHessian& h) {
 /// Works in gx, gy.
 void shell_product(const Shell& s, const ShellHessian& h) {
   for (int cell = 0; cell < s.cells; ++cell) {
-    const int b = s.base[cell], n = s.count[cell], m = padded_lanes(n);
+    const int b = s.base[cell] + 1, n = s.count[cell];
     const Double8 kb = broadcast(s.bending_stiffness[cell]);
     Double8 area_change{};
-    for (int j = b; j < b + m; j += lanes) {  // change of direction of each segment
+    double* turn = h.ox;                  // change of direction of each segment, until the last pass
+    for (int k = 0; k < n; k += lanes) {
+      const int j = b + k;
       const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
-      store(h.ox + j, load(h.nx + j) * wx + load(h.ny + j) * wy);  // scratch until the last pass
-      const Mask8 own = first_lanes(n + 1 - (j - b)) & ~first_lanes(1 - (j - b));
-      area_change += select(own, load(h.ax + j) * load(h.vx + j) + load(h.ay + j) * load(h.vy + j), Double8{});
+      store(turn + j, load(h.nx + j) * wx + load(h.ny + j) * wy);
+      area_change += only(first_lanes(n - k), load(h.ax + j) * load(h.vx + j) + load(h.ay + j) * load(h.vy + j));
     }
-    for (int j = b; j < b + m; j += lanes) {
+    turn[b - 1] = turn[b + n - 1];
+    turn[b + n] = turn[b];
+    for (int j = b; j < b + n; j += lanes) {
       const Double8 wx = load(h.vx + j + 1) - load(h.vx + j), wy = load(h.vy + j + 1) - load(h.vy + j);
-      const Double8 bend = kb * (2.0 * load(h.ox + j) - load(h.ox + j - 1) - load(h.ox + j + 1));
+      const Double8 bend = kb * (2.0 * load(turn + j) - load(turn + j - 1) - load(turn + j + 1));
       store(s.gx + j, load(h.sxx + j) * wx + load(h.sxy + j) * wy + bend * load(h.nx + j));
       store(s.gy + j, load(h.sxy + j) * wx + load(h.syy + j) * wy + bend * load(h.ny + j));
     }
-    s.gx[b] = s.gx[b + n];
-    s.gy[b] = s.gy[b + n];
+    s.gx[b - 1] = s.gx[b + n - 1];
+    s.gy[b - 1] = s.gy[b + n - 1];
     const Double8 rank_one = broadcast(h.area_curvature[cell] * sum(area_change));
     const Double8 half_pressure = broadcast(0.5 * h.pressure[cell]);
-    for (int j = b; j < b + m; j += lanes) {
+    for (int j = b; j < b + n; j += lanes) {
       const Double8 turn_x = load(h.vx + j + 1) - load(h.vx + j - 1), turn_y = load(h.vy + j + 1) - load(h.vy + j - 1);
       store(h.ox + j, load(s.gx + j - 1) - load(s.gx + j) + rank_one * load(h.ax + j) + half_pressure * turn_y);
       store(h.oy + j, load(s.gy + j - 1) - load(s.gy + j) + rank_one * load(h.ay + j) - half_pressure * turn_x);
     }
     for (double* o : {h.ox + b, h.oy + b}) {
-      o[0] = 0.0;
-      for (int k = 1; k < suture::kernels::halo; ++k) o[n + k] = 0.0;
+      o[-1] = 0.0;
+      for (int k = 0; k < suture::kernels::halo - 1; ++k) o[n + k] = 0.0;
     }
   }
 }
@@ -225,20 +238,21 @@ void fold_cells(const Shell& s, double* padded, double* values) {
 void fold_gradient(const Shell& s, double* gx, double* gy) {
   for (int cell = 0; cell < s.cells; ++cell) {
     const int b = s.base[cell] + 1, n = s.count[cell];
-    double* contact = s.contact + 2 * b;
+    double* g = s.gradient + 2 * b;
     if (n >= contact_halo) {
       static_assert(2 * contact_halo == lanes);
-      store(contact, load(contact) + load(contact + 2 * n));
+      store(g, load(g) + load(g + 2 * n));
     } else {
-      for (int k = 2 * contact_halo - 1; k >= 0; --k) contact[k] += contact[2 * n + k];
+      for (int k = 2 * contact_halo - 1; k >= 0; --k) g[k] += g[2 * n + k];
     }
-    int k = 0;
-    for (; k + lanes <= n; k += lanes) {
-      const Pairs8 c = load_pairs(contact + 2 * k);
-      store(gx + k, load(s.gx + b + k) + c.x);
-      store(gy + k, load(s.gy + b + k) + c.y);
-    }
-    for (; k < n; ++k) gx[k] = s.gx[b + k] + contact[2 * k], gy[k] = s.gy[b + k] + contact[2 * k + 1];
+    for_vectors(
+        n,
+        [&](int k) {
+          const Pairs8 pairs = load_pairs(g + 2 * k);
+          store(gx + k, pairs.x);
+          store(gy + k, pairs.y);
+        },
+        [&](int k) { gx[k] = g[2 * k], gy[k] = g[2 * k + 1]; });
     gx += n, gy += n;
   }
 }
@@ -250,12 +264,13 @@ void rest_length_rate(const Shell& s, const RestLengthFlow& f) {
     const double *length = s.length + s.base[cell] + 1, *rest = f.rest_length + vertex, *reference = f.reference + vertex;
     double* rate = f.rate + vertex;
     const double inverse_tau = f.inverse_tau[cell], memory = f.memory[cell];
-    for (int k = 0; k + lanes <= n; k += lanes) {
-      const Double8 l = load(length + k);
-      store(rate + k, -inverse_tau * ((load(rest + k) - l) + memory * (l - load(reference + k))));
-    }
-    for (int k = n - n % lanes; k < n; ++k)
-      rate[k] = -inverse_tau * ((rest[k] - length[k]) + memory * (length[k] - reference[k]));
+    for_vectors(
+        n,
+        [&](int k) {
+          const Double8 l = load(length + k);
+          store(rate + k, -inverse_tau * ((load(rest + k) - l) + memory * (l - load(reference + k))));
+        },
+        [&](int k) { rate[k] = -inverse_tau * ((rest[k] - length[k]) + memory * (length[k] - reference[k])); });
     vertex += n;
   }
 }

@@ -67,8 +67,27 @@ SUTURE_INLINE Pairs8 load_pairs(const double* p) {
 #endif
   return c;
 }
-/// Stores (x, y) of lane k at p + 8 (k % 2) + k - k % 2.
+/// Stores (x, y) of lane k at p + 2 k.
 SUTURE_INLINE void store_pairs(double* p, Double8 x, Double8 y) {
+#if defined(__AVX512F__)
+  const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11), high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
+  store(p, {{_mm512_permutex2var_pd(x.r[0], low, y.r[0])}});
+  store(p + lanes, {{_mm512_permutex2var_pd(x.r[0], high, y.r[0])}});
+#else
+  for (int i = 0; i < registers; ++i, p += 2 * width) {
+#if defined(__AVX2__)
+    const Native low = _mm256_unpacklo_pd(x.r[i], y.r[i]), high = _mm256_unpackhi_pd(x.r[i], y.r[i]);
+    _mm256_storeu_pd(p, _mm256_permute2f128_pd(low, high, 0x20));
+    _mm256_storeu_pd(p + width, _mm256_permute2f128_pd(low, high, 0x31));
+#else
+    _mm_storeu_pd(p, _mm_unpacklo_pd(x.r[i], y.r[i]));
+    _mm_storeu_pd(p + width, _mm_unpackhi_pd(x.r[i], y.r[i]));
+#endif
+  }
+#endif
+}
+/// Stores (x, y) of lane k at p + 8 (k % 2) + k - k % 2, which takes fewer instructions.
+SUTURE_INLINE void store_even_odd(double* p, Double8 x, Double8 y) {
   for (int i = 0; i < registers; ++i) {
 #if defined(__AVX512F__)
     const Native even = _mm512_unpacklo_pd(x.r[i], y.r[i]), odd = _mm512_unpackhi_pd(x.r[i], y.r[i]);
@@ -254,16 +273,38 @@ SUTURE_INLINE bool any(Mask8 a) {
 #endif
 #endif
 }
-/// Lanes 0 .. n-1; all for n > 8, none for n < 0.
+/// Lanes 0 .. n-1; all for n > 8. n >= 0.
 SUTURE_INLINE Mask8 first_lanes(int n) {
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return from_bits(n >= lanes ? 0xffu : n <= 0 ? 0u : (1u << n) - 1u);
+  return from_bits(_bzhi_u32(0xffu, static_cast<unsigned>(n < lanes ? n : lanes)));
 #else
-  const long long* p = ladder + 16 - (n >= lanes ? lanes : n <= 0 ? 0 : n);
+  const long long* p = ladder + 16 - (n < lanes ? n : lanes);
   Mask8 r;
   for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = p[k];
   return r;
 #endif
+}
+
+/// a moved up by one lane; its first lane is the last one of `before`.
+SUTURE_INLINE Double8 shift_in(Double8 before, Double8 a) {
+  Double8 r;
+  for (int i = 0; i < registers; ++i) {
+    const Native low = i == 0 ? before.r[registers - 1] : a.r[i - 1];
+#if defined(__AVX512F__)
+    r.r[i] = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(a.r[i]), _mm512_castpd_si512(low), 7));
+#elif defined(__AVX2__)
+    r.r[i] = _mm256_shuffle_pd(_mm256_permute2f128_pd(low, a.r[i], 0x21), a.r[i], 0x5);
+#else
+    r.r[i] = _mm_shuffle_pd(low, a.r[i], 1);
+#endif
+  }
+  return r;
+}
+/// Lane k goes to the last one; the others are not to be used.
+SUTURE_INLINE Double8 lane_to_end(Double8 a, int k) {
+  alignas(64) double values[lanes];
+  store(values, a);
+  return broadcast(values[k]);
 }
 
 SUTURE_INLINE Double8 maximum(Double8 a, Double8 b) { return select(less(b, a), a, b); }
@@ -274,21 +315,21 @@ SUTURE_INLINE double sum(Double8 a) {
   return even + odd;
 }
 
-/// atan(w) for |w| <= tan(pi/8): odd polynomial of degree 21, relative error 2.3e-16 (own Chebyshev fit).
-SUTURE_INLINE Double8 small_arctangent(Double8 w) {
-  const Double8 u = w * w;
-  Double8 p = broadcast(0.021128607504723874);
-  p = p * u - 0.04347499662667871;
-  p = p * u + 0.05688157926019374;
-  p = p * u - 0.06640197366695386;
-  p = p * u + 0.0768994928650073;
-  p = p * u - 0.09090772775888224;
-  p = p * u + 0.11111106167586494;
-  p = p * u - 0.14285714180659678;
-  p = p * u + 0.1999999999885117;
-  p = p * u - 0.3333333333332842;
-  p = p * u + 1.0;
-  return w * p;
+/// 4 atan(w) for |w| <= tan(pi/8): odd polynomial of degree 21, relative error 2.3e-16 (own Chebyshev fit). Even and odd
+/// powers of w^2 apart, so that the chain of dependent operations is half as long.
+SUTURE_INLINE Double8 four_arctangents(Double8 w) {
+  const Double8 u = w * w, v = u * u;
+  Double8 even = broadcast(0.021128607504723874), odd = broadcast(-0.04347499662667871);
+  even = even * v + 0.05688157926019374;
+  odd = odd * v - 0.06640197366695386;
+  even = even * v + 0.0768994928650073;
+  odd = odd * v - 0.09090772775888224;
+  even = even * v + 0.11111106167586494;
+  odd = odd * v - 0.14285714180659678;
+  even = even * v + 0.1999999999885117;
+  odd = odd * v - 0.3333333333332842;
+  even = even * v + 1.0;
+  return (4.0 * w) * (even + odd * u);
 }
 
 }  // namespace

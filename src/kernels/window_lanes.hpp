@@ -1,5 +1,5 @@
-// The lanes of the contact kernel: two windows of four lanes each, and live lanes packed one behind the other. Compiled
-// once per instruction set, like vector8.hpp.
+// The lanes of the contact kernel: one window each, and live ones packed one behind the other. Compiled once per instruction
+// set, like vector8.hpp.
 #pragma once
 
 #include "kernels/vector8.hpp"
@@ -18,22 +18,6 @@ SUTURE_INLINE Double8 load_halves(const double* p, const double* q) {
   return a;
 #endif
 }
-SUTURE_INLINE Double8 broadcast_halves(double p, double q) {
-#if defined(__AVX512F__)
-  return {{_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_set1_pd(p)), _mm256_set1_pd(q), 1)}};
-#else
-  Double8 a;
-  for (int i = 0; i < registers; ++i) {
-    const double value = i < registers / 2 ? p : q;
-#if defined(__AVX2__)
-    a.r[i] = _mm256_set1_pd(value);
-#else
-    a.r[i] = _mm_set1_pd(value);
-#endif
-  }
-  return a;
-#endif
-}
 /// The same 64 bits in every lane.
 SUTURE_INLINE Double8 bit_pattern(long long n) {
   typedef long long Bits __attribute__((vector_size(width * 8)));
@@ -48,37 +32,6 @@ SUTURE_INLINE Double8 add_bits(Double8 a, Double8 n) {
     a.r[i] = reinterpret_cast<Native>(reinterpret_cast<Bits>(a.r[i]) + reinterpret_cast<Bits>(n.r[i]));
   return a;
 }
-/// Lane k of each half receives lane k - 1 of it; its first lane receives zero.
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-SUTURE_INLINE Mask8 shift_up_halves(Mask8 a) { return from_bits((a.m << 1) & 0xee); }
-#else
-SUTURE_INLINE Mask8 shift_up_halves(Mask8 a) {
-  Native r[registers];
-  for (int i = 0; i < registers; ++i) r[i] = reinterpret_cast<Native>(a.m[i]);
-#if defined(__AVX2__)
-  for (Native& half : r) half = _mm256_blend_pd(_mm256_permute4x64_pd(half, 0x90), _mm256_setzero_pd(), 1);
-#else
-  for (int h = registers - 2; h >= 0; h -= 2) {
-    r[h + 1] = _mm_shuffle_pd(r[h], r[h + 1], 1);
-    r[h] = _mm_shuffle_pd(_mm_setzero_pd(), r[h], 0);
-  }
-#endif
-  for (int i = 0; i < registers; ++i) a.m[i] = reinterpret_cast<NativeMask>(r[i]);
-  return a;
-}
-#endif
-/// Lanes 0 .. m-1 of the first half and 0 .. n-1 of the second.
-SUTURE_INLINE Mask8 first_lanes_halves(int m, int n) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return from_bits(((1u << m) - 1u) | (((1u << n) - 1u) << 4));
-#else
-  const long long *p = ladder + 16 - m, *q = ladder + 16 - n;
-  Mask8 r;
-  for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = k < 4 ? p[k] : q[k - 4];
-  return r;
-#endif
-}
-
 /// Lane k from p + i[2 k]; i is every other number of sixteen.
 SUTURE_INLINE Double8 load_each(const double* p, const int* i) {
 #if defined(__AVX512F__)

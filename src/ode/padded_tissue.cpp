@@ -5,13 +5,13 @@
 namespace suture {
 
 PaddedTissue::PaddedTissue(const Tissue& tissue, SpringLaw law, int cells_per_block) {
-  constexpr int front = 8;  // the kernels may read one slot before a cell's first
+  constexpr int first = 7, gap = 8;  // slot 1 of every cell begins an aligned vector
   const auto cells = static_cast<std::size_t>(tissue.cell_count());
   blocks_ = {cells, cells_per_block > 0 ? static_cast<std::size_t>(cells_per_block) : std::max<std::size_t>(cells, 1)};
-  slots_ = front;
+  slots_ = first;
   for (int c = 0; c < tissue.cell_count(); ++c) {
     const int n = tissue.vertex_count(c);
-    if (c > 0 && cells_per_block > 0 && c % cells_per_block == 0) slots_ += front;  // that slot belongs to no other block
+    if (c > 0 && cells_per_block > 0 && c % cells_per_block == 0) slots_ += gap;  // blocks share no cache line
     base_.push_back(slots_);
     count_.push_back(n);
     for (int k = 0; k < n; ++k) slot_of_.push_back(slots_ + 1 + k);
@@ -42,7 +42,7 @@ void PaddedTissue::take_arrays(const Tissue& tissue) {
                          &shell.rest_a, &shell.rest_b, &stiffness, &shell.gx, &shell.gy, &hessian.sxx, &hessian.sxy,
                          &hessian.syy, &hessian.nx, &hessian.ny, &hessian.ax, &hessian.ay, &hessian.vx, &hessian.vy, &hessian.ox, &hessian.oy})
     *array = buffer_.take(slots_);
-  shell.contact = buffer_.take(2 * slots_);
+  shell.gradient = buffer_.take(2 * slots_);
   for (int c = 0; c < tissue.cell_count(); ++c)
     for (int k = 0; k < count_[c] + kernels::halo; ++k) {
       const double length = tissue.initial_rest_length(vertex_of_[base_[c] + k]);

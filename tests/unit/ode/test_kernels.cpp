@@ -59,7 +59,7 @@ std::vector<double> everything(const kernels::Table& table, const TissueState& s
   table.shell_linearise(padded.shell, padded.hessian);
   std::vector<kernels::ContactFactor> factors(16 * windows.size() + pairs.size());
   const std::size_t count =
-      table.contact_linearise(padded.shell, contact, windows.data(), windows.size(), pairs.data(), pairs.size(), -100.0, factors.data());
+      table.contact_linearise(padded.shell, contact, groups.data(), groups.windows(), pairs.data(), pairs.size(), -100.0, factors.data());
   REQUIRE(count > 50);
   result.push_back(static_cast<double>(count));
   std::vector<double> direction(n);
