@@ -3,7 +3,7 @@
 
 #include "kernels/kernels.hpp"
 #include "kernels/vector8.hpp"
-#include "kernels/window_lanes.hpp"
+#include "kernels/lane_moves.hpp"
 
 namespace {
 

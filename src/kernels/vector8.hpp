@@ -43,63 +43,6 @@ SUTURE_INLINE Double8 load_bits(const void* p) {
 SUTURE_INLINE void store(double* p, Double8 a) {
   for (int i = 0; i < registers; ++i) *reinterpret_cast<UnalignedNative*>(p + i * width) = a.r[i];
 }
-struct Pairs8 {
-  Double8 x, y;
-};
-/// Eight (x, y) from p on.
-SUTURE_INLINE Pairs8 load_pairs(const double* p) {
-  Pairs8 c;
-#if defined(__AVX512F__)
-  const Double8 a = load(p), b = load(p + lanes);
-  const __m512i even = _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), odd = _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15);
-  c.x.r[0] = _mm512_permutex2var_pd(a.r[0], even, b.r[0]), c.y.r[0] = _mm512_permutex2var_pd(a.r[0], odd, b.r[0]);
-#else
-  for (int i = 0; i < registers; ++i, p += 2 * width) {
-    const Native a = *reinterpret_cast<const UnalignedNative*>(p), b = *reinterpret_cast<const UnalignedNative*>(p + width);
-#if defined(__AVX2__)
-    c.x.r[i] = _mm256_permute4x64_pd(_mm256_unpacklo_pd(a, b), 0xd8);
-    c.y.r[i] = _mm256_permute4x64_pd(_mm256_unpackhi_pd(a, b), 0xd8);
-#else
-    c.x.r[i] = _mm_unpacklo_pd(a, b);
-    c.y.r[i] = _mm_unpackhi_pd(a, b);
-#endif
-  }
-#endif
-  return c;
-}
-/// Stores (x, y) of lane k at p + 2 k.
-SUTURE_INLINE void store_pairs(double* p, Double8 x, Double8 y) {
-#if defined(__AVX512F__)
-  const __m512i low = _mm512_setr_epi64(0, 8, 1, 9, 2, 10, 3, 11), high = _mm512_setr_epi64(4, 12, 5, 13, 6, 14, 7, 15);
-  store(p, {{_mm512_permutex2var_pd(x.r[0], low, y.r[0])}});
-  store(p + lanes, {{_mm512_permutex2var_pd(x.r[0], high, y.r[0])}});
-#else
-  for (int i = 0; i < registers; ++i, p += 2 * width) {
-#if defined(__AVX2__)
-    const Native low = _mm256_unpacklo_pd(x.r[i], y.r[i]), high = _mm256_unpackhi_pd(x.r[i], y.r[i]);
-    _mm256_storeu_pd(p, _mm256_permute2f128_pd(low, high, 0x20));
-    _mm256_storeu_pd(p + width, _mm256_permute2f128_pd(low, high, 0x31));
-#else
-    _mm_storeu_pd(p, _mm_unpacklo_pd(x.r[i], y.r[i]));
-    _mm_storeu_pd(p + width, _mm_unpackhi_pd(x.r[i], y.r[i]));
-#endif
-  }
-#endif
-}
-/// Stores (x, y) of lane k at p + 8 (k % 2) + k - k % 2, which takes fewer instructions.
-SUTURE_INLINE void store_even_odd(double* p, Double8 x, Double8 y) {
-  for (int i = 0; i < registers; ++i) {
-#if defined(__AVX512F__)
-    const Native even = _mm512_unpacklo_pd(x.r[i], y.r[i]), odd = _mm512_unpackhi_pd(x.r[i], y.r[i]);
-#elif defined(__AVX2__)
-    const Native even = _mm256_unpacklo_pd(x.r[i], y.r[i]), odd = _mm256_unpackhi_pd(x.r[i], y.r[i]);
-#else
-    const Native even = _mm_unpacklo_pd(x.r[i], y.r[i]), odd = _mm_unpackhi_pd(x.r[i], y.r[i]);
-#endif
-    *reinterpret_cast<UnalignedNative*>(p + i * width) = even;
-    *reinterpret_cast<UnalignedNative*>(p + lanes + i * width) = odd;
-  }
-}
 SUTURE_INLINE Double8 broadcast(double a) {
   Double8 b;
   for (int i = 0; i < registers; ++i) b.r[i] = a - Native{};
@@ -283,28 +226,6 @@ SUTURE_INLINE Mask8 first_lanes(int n) {
   for (int k = 0; k < lanes; ++k) r.m[k / width][k % width] = p[k];
   return r;
 #endif
-}
-
-/// a moved up by one lane; its first lane is the last one of `before`.
-SUTURE_INLINE Double8 shift_in(Double8 before, Double8 a) {
-  Double8 r;
-  for (int i = 0; i < registers; ++i) {
-    const Native low = i == 0 ? before.r[registers - 1] : a.r[i - 1];
-#if defined(__AVX512F__)
-    r.r[i] = _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(a.r[i]), _mm512_castpd_si512(low), 7));
-#elif defined(__AVX2__)
-    r.r[i] = _mm256_shuffle_pd(_mm256_permute2f128_pd(low, a.r[i], 0x21), a.r[i], 0x5);
-#else
-    r.r[i] = _mm_shuffle_pd(low, a.r[i], 1);
-#endif
-  }
-  return r;
-}
-/// Lane k goes to the last one; the others are not to be used.
-SUTURE_INLINE Double8 lane_to_end(Double8 a, int k) {
-  alignas(64) double values[lanes];
-  store(values, a);
-  return broadcast(values[k]);
 }
 
 SUTURE_INLINE Double8 maximum(Double8 a, Double8 b) { return select(less(b, a), a, b); }

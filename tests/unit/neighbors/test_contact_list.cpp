@@ -1,4 +1,5 @@
 // The windows of the contact list against a count of every vertex and segment.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -142,4 +143,33 @@ TEST_CASE("cells on top of one another, in a row or far apart are all found", "[
   for (int v = scattered.tissue.first_vertex(15); v < scattered.tissue.end_vertex(15); ++v)
     scattered.mutable_view().x[v] += 1e6;
   check_some(tally(scattered, 0.2, 0.1, 0.1));
+}
+
+TEST_CASE("groups hold every window once, nearer bands first, in their order within a band", "[unit]") {
+  const TissueState state = random_tissue(4, {.minimum_vertices = 3, .maximum_vertices = 20});
+  PaddedTissue padded(state.tissue, SpringLaw::quadratic);
+  load(padded, state);
+  ContactList list(0.3, 0.0, 0.4);
+  list.build(padded.shell, kernels::best());
+  std::vector<kernels::Window> expected = list.entries(0).windows;
+  std::stable_sort(expected.begin(), expected.end(), [](const auto& one, const auto& two) { return one.band < two.band; });
+  const WindowGroups& groups = list.entries(0).groups;
+  constexpr std::size_t size = kernels::WindowGroup::windows;
+  REQUIRE(expected.size() > size);
+  REQUIRE(expected.front().band < expected.back().band);
+  REQUIRE(groups.windows() == expected.size());
+  for (std::size_t k = 0; k < (expected.size() + size - 1) / size * size; ++k) {
+    const kernels::WindowGroup& group = groups.data()[k / size];
+    CAPTURE(k);
+    for (int s = 0; s < kernels::window_segments; ++s)
+      CHECK((group.segments[s] >> k % size & 1u) == (k < expected.size() && s < expected[k].segments));
+    const kernels::WindowGroup::Slots slots = group.slots[k % size];
+    if (k < expected.size()) CHECK((slots.p == expected[k].p && slots.q == expected[k].q));
+    CHECK((slots.p >= 0 && slots.p < padded.slots() && slots.q >= 0 && slots.q < padded.slots()));  // the rest is loaded, too
+  }
+  for (int bands = 1; bands <= ContactList::bands; ++bands)
+    CHECK(groups.windows(bands) == static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), [&](const auto& w) { return w.band < bands; })));
+  CHECK(list.active(0) == groups.windows(1));
+  list.age(0.2);
+  CHECK(list.active(0) == groups.windows());
 }
