@@ -26,7 +26,7 @@ void measure(const Settings& settings, Report& report) {
   if (settings.wants("ladders")) measure_ladders(settings, report, wounded);
   if (settings.wants("cases")) measure_cases(settings, report, wounded);
   if (settings.wants("grid")) measure_tolerance_grid(settings, report, wounded);
-  if (settings.wants("rivals")) measure_rivals(settings, report, wounded);
+  if (settings.wants("rivals")) measure_rivals(settings, report);
 }
 
 }  // namespace

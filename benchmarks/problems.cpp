@@ -59,11 +59,12 @@ TissueState tiled(const TissueState& patch, int copies, double contact_distance)
   return all;
 }
 
-Packed wounded_tissue(bool small, std::optional<int> vertices) {
+Packed wounded_tissue(bool small, std::optional<int> vertices, std::optional<std::uint64_t> seed) {
   Packed wounded;
   const std::string name = small ? "small" : "embryo";
   wounded.config = read_config(std::string(SUTURE_SOURCE_DIR) + "/examples/" + name + ".toml");
   wounded.config.tissue.vertices = vertices.value_or(wounded.config.tissue.vertices);
+  wounded.config.tissue.seed = seed.value_or(wounded.config.tissue.seed);
   wounded.config = with_contact_distance(wounded.config);
   wounded.seconds = time_calls(1, [&] { wounded.state = prepare_tissue(wounded.config).state; }).median;
   wounded.state.time = 0.0;

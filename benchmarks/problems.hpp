@@ -29,9 +29,9 @@ TissueState tiled(const TissueState& patch, int copies, double contact_distance)
 /// without a string.
 Packed honeycomb_with_wound(int cells, int vertices, double relaxation_time);
 
-/// A relaxed wound: examples/embryo.toml (seed 1, 50 cells less 5) or, for a smoke test, examples/small.toml.
-/// vertices: per cell, if not as in the example.
-Packed wounded_tissue(bool small, std::optional<int> vertices = {});
+/// A relaxed wound: examples/embryo.toml (50 cells less 5) or, for a smoke test, examples/small.toml. vertices (per cell), seed:
+/// if not as in the example.
+Packed wounded_tissue(bool small, std::optional<int> vertices = {}, std::optional<std::uint64_t> seed = {});
 
 /// The same wound with a purse string on it and the given material: smooth as long as no event is processed.
 TissueState with_ring(const Config& config, const TissueState& wounded);
