@@ -54,7 +54,10 @@ void fill_standard_operations(N_Vector_Ops ops) {
   ops->nvconst = [](double c, N_Vector z) { each(z, [c](auto) { return c; }); };
   ops->nvprod = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] * b[k]; }); };
   ops->nvdiv = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] / b[k]; }); };
-  ops->nvscale = [](double c, N_Vector x, N_Vector z) { each(z, [a = data(x), c](auto k) { return c * a[k]; }); };
+  ops->nvscale = [](double c, N_Vector x, N_Vector z) {
+    const double* const a = data(x);
+    operations(z).linear_combination(padded(z), 1, &c, &a, data(z));
+  };
   ops->nvabs = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return std::abs(a[k]); }); };
   ops->nvinv = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return 1.0 / a[k]; }); };
   ops->nvaddconst = [](N_Vector x, double b, N_Vector z) { each(z, [a = data(x), b](auto k) { return a[k] + b; }); };
