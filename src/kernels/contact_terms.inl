@@ -14,7 +14,7 @@ constexpr int batches = WindowGroup::windows / lanes;
 
 /// The live terms of one group, those of windows with several first.
 struct LiveTerms {
-  static constexpr int room = WindowGroup::windows * (segments + points) + lanes;  ///< packing writes beyond the last
+  static constexpr int room = WindowGroup::windows * suture::kernels::window_terms + lanes;  ///< packing writes beyond the last
   int count = 0;
   /// From the nearest point to the vertex; where on the segment that is, 0 for a point, with the sign bit for a term
   /// that is subtracted.

@@ -68,20 +68,20 @@ struct ContactScalars {
   double self2 = 0;  ///< s^2
 };
 
-/// Segments of one window at most; with their last end point they fill half a vector.
+/// Segments of one window at most; with their last end point they are the four points that a lane looks at.
 constexpr int window_segments = 3;
-constexpr int window_terms = 2 * window_segments + 1;
+constexpr int window_terms = 2 * window_segments + 1;  ///< of its segments and points
 /// Slots after a cell's vertices that the contact gradient adds to, if only zero to the last.
 constexpr int contact_halo = window_segments + 1;
 
-/// Vertex p against `segments` <= window_segments consecutive segments that start at slot q of another cell. The kernels
-/// do not look at `band` (contact_list.hpp).
+/// Vertex p against `segments` <= window_segments consecutive segments that start at slot q of another cell; `band` as in
+/// contact_list.hpp. What lists are made of.
 struct Window {
   int p, q;
   std::int16_t segments, band;
 };
 
-/// Windows side by side: what the gradient works on.
+/// Windows side by side: what the contact kernels work on.
 struct WindowGroup {
   static constexpr int windows = 64;
   struct Slots {

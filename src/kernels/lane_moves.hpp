@@ -78,25 +78,6 @@ SUTURE_INLINE Double8 shift_in(Double8 before, Double8 a) {
   }
   return r;
 }
-/// Lane k goes to the last one; the others are not to be used.
-SUTURE_INLINE Double8 lane_to_end(Double8 a, int k) {
-  alignas(64) double values[lanes];
-  store(values, a);
-  return broadcast(values[k]);
-}
-
-/// Lanes 0-3 from p, lanes 4-7 from q.
-SUTURE_INLINE Double8 load_halves(const double* p, const double* q) {
-#if defined(__AVX512F__)
-  return {{_mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(p)), _mm256_loadu_pd(q), 1)}};
-#else
-  Double8 a;
-  for (int i = 0; i < registers; ++i)
-    a.r[i] =
-        *reinterpret_cast<const UnalignedNative*>(i < registers / 2 ? p + i * width : q + (i - registers / 2) * width);
-  return a;
-#endif
-}
 /// The same 64 bits in every lane.
 SUTURE_INLINE Double8 bit_pattern(long long n) {
   typedef long long Bits __attribute__((vector_size(width * 8)));
@@ -131,10 +112,12 @@ SUTURE_INLINE Double8 load_each(const double* p, const int* i) {
 /// Lane k of a[m] from p + i[2 k] + m.
 SUTURE_INLINE void load_quads(const double* p, const int* i, Double8* a) {
 #if defined(__AVX512F__)
-  const Double8 r0 = load_halves(p + i[0], p + i[4]), r1 = load_halves(p + i[2], p + i[6]);
-  const Double8 r2 = load_halves(p + i[8], p + i[12]), r3 = load_halves(p + i[10], p + i[14]);
-  const __m512d even0 = _mm512_unpacklo_pd(r0.r[0], r1.r[0]), odd0 = _mm512_unpackhi_pd(r0.r[0], r1.r[0]);
-  const __m512d even1 = _mm512_unpacklo_pd(r2.r[0], r3.r[0]), odd1 = _mm512_unpackhi_pd(r2.r[0], r3.r[0]);
+  const auto halves = [p](int low, int high) {
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(p + low)), _mm256_loadu_pd(p + high), 1);
+  };
+  const __m512d r0 = halves(i[0], i[4]), r1 = halves(i[2], i[6]), r2 = halves(i[8], i[12]), r3 = halves(i[10], i[14]);
+  const __m512d even0 = _mm512_unpacklo_pd(r0, r1), odd0 = _mm512_unpackhi_pd(r0, r1);
+  const __m512d even1 = _mm512_unpacklo_pd(r2, r3), odd1 = _mm512_unpackhi_pd(r2, r3);
   a[0].r[0] = _mm512_shuffle_f64x2(even0, even1, 0x88), a[1].r[0] = _mm512_shuffle_f64x2(odd0, odd1, 0x88);
   a[2].r[0] = _mm512_shuffle_f64x2(even0, even1, 0xdd), a[3].r[0] = _mm512_shuffle_f64x2(odd0, odd1, 0xdd);
 #elif defined(__AVX2__)

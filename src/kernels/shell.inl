@@ -110,7 +110,7 @@ inline bool segment_forces(const Shell& s, int cell, bool rest_lengths_held) {
     return {along * ex - across * ey, along * ey + across * ex};
   };
   const Pairs8 at_end = of_segments(b + last);
-  Pairs8 before{lane_to_end(at_end.x, n - 1 - last), lane_to_end(at_end.y, n - 1 - last)};
+  Pairs8 before{broadcast(at_end.x[n - 1 - last]), broadcast(at_end.y[n - 1 - last])};  // of its last lane
   for (int k = 0; k <= last; k += lanes) {
     const int j = b + k;
     const Pairs8 here = k == last ? at_end : of_segments(j);

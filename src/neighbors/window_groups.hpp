@@ -1,4 +1,4 @@
-// The windows of one list in the layout the gradient works on, nearer bands first.
+// The windows of one list in the layout the contact kernels work on, nearer bands first.
 #pragma once
 
 #include <array>
