@@ -84,14 +84,11 @@ bool MinimisingNewton::secants(double& fz, double wanted) {
   bool moved = false;
   k.linear_sum(padded_, -1.0, z_, 0.0, z_, p_);
   for (int iteration = 1; iteration <= options_.maximum_secants; ++iteration) {
-    k.linear_sum(padded_, 1.0, q_, 1.0, p_, trial_);
-    if (largest(p_) > options_.largest_move || residual(span(trial_), r_) != Evaluation::ok) break;
+    if (k.add_and_largest(padded_, q_, p_, trial_) > options_.largest_move || residual(span(trial_), r_) != Evaluation::ok) break;
     ++counts_.iterations;
-    k.linear_sum(padded_, 1.0, r_, -1.0, f_, ap_);
-    const double step = fz / k.dot(padded_, p_, ap_);
+    const double step = fz / k.subtract_and_dot(padded_, r_, f_, p_, ap_);
     if (!(step > shortest && step < longest)) break;
-    k.linear_sum(padded_, 1.0, q_, step, p_, q_);
-    k.linear_sum(padded_, 1.0, f_, step, ap_, f_);
+    k.add_scaled_twice(padded_, step, p_, q_, ap_, f_);
     moved = true;
     const double before = fz;
     fz = precondition_residual();

@@ -2,6 +2,7 @@
 // are added range by range, so that the number of threads changes no bit. Any length n, as in kernels.hpp.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -23,15 +24,19 @@ class VectorOperations {
     const Ranges ranges = vector_ranges(n);
     workers_->for_each(ranges.count(), [&](int k) { visit(ranges[k]); });
   }
-  /// Sum of part(Range), in the order of the ranges.
-  template <class Part>
-  double sum(std::size_t n, const Part& part) const {
+  /// part(Range) of all ranges, put together by join(one, other) in their order.
+  template <class Part, class Join>
+  double reduce(std::size_t n, const Part& part, const Join& join) const {
     const Ranges ranges = vector_ranges(n);
     std::array<double, most_vector_ranges> parts;
     workers_->for_each(ranges.count(), [&](int k) { parts[k] = part(ranges[k]); });
     double total = ranges.count() > 0 ? parts[0] : 0.0;
-    for (int k = 1; k < ranges.count(); ++k) total += parts[k];
+    for (int k = 1; k < ranges.count(); ++k) total = join(total, parts[k]);
     return total;
+  }
+  template <class Part>
+  double sum(std::size_t n, const Part& part) const {
+    return reduce(n, part, [](double one, double other) { return one + other; });
   }
 
   double dot(std::size_t n, const double* x, const double* y) const {
@@ -39,6 +44,23 @@ class VectorOperations {
   }
   double weighted_square_sum(std::size_t n, const double* x, const double* w) const {
     return sum(n, [&](Range r) { return kernel_->weighted_square_sum(r.end - r.begin, x + r.begin, w + r.begin); });
+  }
+  /// z = x - y; returns p.z.
+  double subtract_and_dot(std::size_t n, const double* x, const double* y, const double* p, double* z) const {
+    return sum(n, [&](Range r) {
+      return kernel_->subtract_and_dot(r.end - r.begin, x + r.begin, y + r.begin, p + r.begin, z + r.begin);
+    });
+  }
+  /// z = x + y; returns the largest |y|.
+  double add_and_largest(std::size_t n, const double* x, const double* y, double* z) const {
+    const auto part = [&](Range r) { return kernel_->add_and_largest(r.end - r.begin, x + r.begin, y + r.begin, z + r.begin); };
+    return reduce(n, part, [](double one, double other) { return std::max(one, other); });
+  }
+  /// y0 += a x0, y1 += a x1
+  void add_scaled_twice(std::size_t n, double a, const double* x0, double* y0, const double* x1, double* y1) const {
+    for_each_range(n, [&](Range r) {
+      kernel_->add_scaled_twice(r.end - r.begin, a, x0 + r.begin, y0 + r.begin, x1 + r.begin, y1 + r.begin);
+    });
   }
   void linear_sum(std::size_t n, double a, const double* x, double b, const double* y, double* z) const {
     for_each_range(n, [&](Range r) { kernel_->linear_sum(r.end - r.begin, a, x + r.begin, b, y + r.begin, z + r.begin); });

@@ -1,5 +1,6 @@
 // Factorisation of symmetric cyclic block-pentadiagonal matrices of 2 x 2 blocks, L D L^T with the last two block rows
-// as a border that absorbs the cyclic corners. T is Double8 (eight matrices at once, one per lane) or double.
+// as a border that absorbs the cyclic corners. T is Double8 (eight matrices at once, one per lane),
+// Float16 or double.
 
 template <class T>
 struct Block2 {
@@ -97,49 +98,50 @@ void cyclic_factor(const CyclicBatch& m) {
 }
 
 template <class T>
-inline void subtract(T* r, const Block2<T>& a, const T* x) {
-  r[0] -= a.xx * x[0] + a.xy * x[1];
-  r[1] -= a.yx * x[0] + a.yy * x[1];
+struct Vector2 {
+  T x, y;
+};
+/// r - a v, one operation behind the other: v is what the next row waits for.
+template <class T>
+inline Vector2<T> minus(const Vector2<T>& r, const Block2<T>& a, const Vector2<T>& v) {
+  return {r.x - a.xx * v.x - a.xy * v.y, r.y - a.yx * v.x - a.yy * v.y};
 }
 template <class T>
-inline void subtract_transpose(T* r, const Block2<T>& a, const T* x) {
-  r[0] -= a.xx * x[0] + a.yx * x[1];
-  r[1] -= a.xy * x[0] + a.yy * x[1];
+inline Vector2<T> minus_transpose(const Vector2<T>& r, const Block2<T>& a, const Vector2<T>& v) {
+  return {r.x - a.xx * v.x - a.yx * v.y, r.y - a.xy * v.x - a.yy * v.y};
+}
+template <class T>
+inline Vector2<T> times(const Block2<T>& a, const Vector2<T>& v) {
+  return {a.xx * v.x + a.xy * v.y, a.yx * v.x + a.yy * v.y};
 }
 
-template <class T>
-void cyclic_solve(const CyclicBatch& m, double* rhs) {
-  const auto* d = reinterpret_cast<const Block2<T>*>(m.diagonal);
-  const auto* l1 = reinterpret_cast<const Block2<T>*>(m.lower1);
-  const auto* l2 = reinterpret_cast<const Block2<T>*>(m.lower2);
+/// Factors as CyclicBatch or CellFactors hold them. The blocks of neighbours that a row does not have are zero.
+template <class T, class Factors, class Number>
+void cyclic_solve(const Factors& m, Number* rhs) {
+  const auto blocks = [](const Number* p) { return reinterpret_cast<const Block2<T>*>(p); };
+  const Block2<T>*d = blocks(m.diagonal), *l1 = blocks(m.lower1), *l2 = blocks(m.lower2);
   const int n = m.rows, p = n - 2;
-  const Block2<T>* border[2] = {reinterpret_cast<const Block2<T>*>(m.border), reinterpret_cast<const Block2<T>*>(m.border) + n};
-  T* r = reinterpret_cast<T*>(rhs);
-  T last[2][2] = {{r[2 * p], r[2 * p + 1]}, {r[2 * p + 2], r[2 * p + 3]}};
+  const Block2<T>* border[2] = {blocks(m.border), blocks(m.border) + n};
+  auto* r = reinterpret_cast<Vector2<T>*>(rhs);
+  Vector2<T> last[2] = {r[p], r[p + 1]}, before{}, v{};
   for (int i = 0; i < p; ++i) {
-    if (i >= 1) subtract(r + 2 * i, l1[i], r + 2 * (i - 1));
-    if (i >= 2) subtract(r + 2 * i, l2[i], r + 2 * (i - 2));
-    subtract(last[0], border[0][i], r + 2 * i);
-    subtract(last[1], border[1][i], r + 2 * i);
+    const Vector2<T> next = minus(minus(r[i], l2[i], before), l1[i], v);
+    before = v, v = next;
+    r[i] = v;
+    last[0] = minus(last[0], border[0][i], v);
+    last[1] = minus(last[1], border[1][i], v);
   }
-  subtract(last[1], l1[n - 1], last[0]);
-  const auto scale = [](const Block2<T>& a, T* x) {
-    const T x0 = x[0];
-    x[0] = a.xx * x0 + a.xy * x[1];
-    x[1] = a.yx * x0 + a.yy * x[1];
-  };
-  scale(d[p], last[0]);
-  scale(d[p + 1], last[1]);
-  subtract_transpose(last[0], l1[n - 1], last[1]);
+  last[1] = times(d[p + 1], minus(last[1], l1[n - 1], last[0]));
+  last[0] = minus_transpose(times(d[p], last[0]), l1[n - 1], last[1]);
+  before = v = {};
   for (int i = p - 1; i >= 0; --i) {
-    scale(d[i], r + 2 * i);
-    if (i + 1 < p) subtract_transpose(r + 2 * i, l1[i + 1], r + 2 * (i + 1));
-    if (i + 2 < p) subtract_transpose(r + 2 * i, l2[i + 2], r + 2 * (i + 2));
-    subtract_transpose(r + 2 * i, border[0][i], last[0]);
-    subtract_transpose(r + 2 * i, border[1][i], last[1]);
+    Vector2<T> next = minus_transpose(minus_transpose(times(d[i], r[i]), border[0][i], last[0]), border[1][i], last[1]);
+    if (i + 2 < p) next = minus_transpose(next, l2[i + 2], before);
+    if (i + 1 < p) next = minus_transpose(next, l1[i + 1], v);
+    before = v, v = next;
+    r[i] = v;
   }
-  r[2 * p] = last[0][0], r[2 * p + 1] = last[0][1];
-  r[2 * p + 2] = last[1][0], r[2 * p + 3] = last[1][1];
+  r[p] = last[0], r[p + 1] = last[1];
 }
 
 void cyclic_factor1(const CyclicBatch& m) { cyclic_factor<double>(m); }

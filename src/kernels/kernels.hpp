@@ -103,7 +103,7 @@ struct ContactFactor {
 
 /// Symmetric cyclic block-pentadiagonal matrices of 2 x 2 blocks, `lanes` of them side by side (1 or 8): element
 /// (row, component, lane) is at [(row * 4 + component) * lanes + lane]. rows >= 3. The last two rows are the border,
-/// which holds their couplings to rows 0 .. rows-3; lower1[rows-1] couples the two.
+/// which holds their couplings to rows 0 .. rows-3; lower1[rows-1] couples the two; lower1[0], lower2[0], lower2[1] are zero.
 struct CyclicBatch {
   int rows = 0;
   double floor = 0.05;  ///< a pivot eigenvalue below it is lifted; the matrices are I + (something mostly positive)
@@ -117,6 +117,25 @@ struct CellRows {
   double *diagonal_xx = nullptr, *diagonal_xy = nullptr, *diagonal_yy = nullptr;  ///< d2U/dr2 of everything else
   double *lead = nullptr;  ///< per lane: identity rows before the cell's first, all rows in a lane without a cell
   double *pressure = nullptr, *bending_stiffness = nullptr;  ///< per lane
+};
+
+/// Sixteen factored cells of the same number of rows, one per lane, in single precision: element (row, component, lane) of the
+/// blocks is at [(row * 4 + component) * 16 + lane], of the area's at [(row * 2 + component) * 16 + lane].
+struct CellFactors {
+  static constexpr int cells = 16;
+  int rows = 0;
+  float *diagonal = nullptr, *lower1 = nullptr, *lower2 = nullptr, *border = nullptr;  ///< as in CyclicBatch, factored
+  float *area_gradient = nullptr, *area_solution = nullptr;  ///< g = da/dr and M^-1 g
+  float* gain = nullptr;                                     ///< of the area's rank-one term (Sherman-Morrison), per lane
+};
+
+/// Where the cells of CellFactors lie in vectors of positions.
+struct CellLanes {
+  int cells = 0;                       ///< in use; the others repeat the first
+  int first[CellFactors::cells] = {};  ///< vertex of each cell
+  int lead[CellFactors::cells] = {};   ///< identity rows before it
+  int common = 0;                      ///< largest lead
+  std::size_t y = 0;                   ///< from a point's x to its y
 };
 
 struct Table {
@@ -143,6 +162,10 @@ struct Table {
   /// Bit mask of the segments base+1 .. base+n of one cell within `reach` of (px, py), 64 segments per word, and the squared
   /// distance of each (room for n, rounded up to eight).
   void (*near_segments)(const Shell&, int cell, double px, double py, double reach2, unsigned long long* words, double* distance2);
+  /// Rounds eight factored cells into lanes 8 half .. 8 half + 7.
+  void (*narrow_cells)(const CyclicBatch&, const double* area_gradient, const double* area_solution, int half, const CellFactors&);
+  /// z = P^-1 r on the cells' points; rhs: room for 32 floats per row, finite, zero in rows before a cell's first.
+  void (*apply_cells)(const CellFactors&, const CellLanes&, const double* r, double* z, float* rhs);
   void (*cyclic_factor1)(const CyclicBatch&);
   void (*cyclic_factor8)(const CyclicBatch&);
   /// rhs: (row, x or y, lane); overwritten by the solution.
@@ -151,11 +174,17 @@ struct Table {
   // Vectors of any length.
   double (*weighted_square_sum)(std::size_t n, const double* x, const double* w);  ///< sum (x w)^2
   double (*dot)(std::size_t n, const double* x, const double* y);
+  double (*subtract_and_dot)(std::size_t n, const double* x, const double* y, const double* p, double* z);  ///< z = x - y; p.z
+  double (*add_and_largest)(std::size_t n, const double* x, const double* y, double* z);  ///< z = x + y; largest |y|
+  /// y0 += a x0, y1 += a x1
+  void (*add_scaled_twice)(std::size_t n, double a, const double* x0, double* y0, const double* x1, double* y1);
   void (*linear_sum)(std::size_t n, double a, const double* x, double b, const double* y, double* z);
   void (*linear_combination)(std::size_t n, int count, const double* c, const double* const* x, double* z);
   void (*scale_add_multi)(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z);
   double (*largest_move2)(std::size_t n, const double* x, const double* y, const double* x0, const double* y0);  ///< squared
   bool (*finite)(std::size_t n, const double* x);  ///< all below 1e300
+  /// f <- (q - psi) + gamma f; returns what finite would say of f before.
+  bool (*implicit_residual)(std::size_t n, const double* q, const double* psi, double gamma, double* f);
   bool (*negate)(std::size_t n, double* x);        ///< in place; returns what finite would
 };
 

@@ -1,24 +1,78 @@
 // Fused vector operations, of any length: whole vectors of eight, then what is left one by one.
 
-double weighted_square_sum(std::size_t n, const double* x, const double* w) {
+/// Sum of eight(k), k + 7 < n, and one(k) for what is left. Two sums that do not wait for each other.
+template <class Eight, class One>
+SUTURE_INLINE double sum_over(std::size_t n, const Eight& eight, const One& one) {
   Double8 s0{}, s1{};
   std::size_t k = 0;
-  for (; k + lanes <= n; k += lanes) {
-    const Double8 a = load(x + k) * load(w + k);
-    (k & lanes ? s1 : s0) += a * a;
+  for (; k + 2 * lanes <= n; k += 2 * lanes) {
+    s0 += eight(k);
+    s1 += eight(k + lanes);
+  }
+  if (k + lanes <= n) {
+    s0 += eight(k);
+    k += lanes;
   }
   double rest = 0.0;
-  for (; k < n; ++k) rest += x[k] * w[k] * (x[k] * w[k]);
+  for (; k < n; ++k) rest += one(k);
   return sum(s0 + s1) + rest;
 }
 
+double weighted_square_sum(std::size_t n, const double* x, const double* w) {
+  return sum_over(
+      n,
+      [=](std::size_t k) {
+        const Double8 a = load(x + k) * load(w + k);
+        return a * a;
+      },
+      [=](std::size_t k) { return x[k] * w[k] * (x[k] * w[k]); });
+}
+
 double dot(std::size_t n, const double* x, const double* y) {
-  Double8 s0{}, s1{};
+  return sum_over(n, [=](std::size_t k) { return load(x + k) * load(y + k); }, [=](std::size_t k) { return x[k] * y[k]; });
+}
+
+/// z = x - y; returns the sum of p z.
+double subtract_and_dot(std::size_t n, const double* x, const double* y, const double* p, double* z) {
+  return sum_over(
+      n,
+      [=](std::size_t k) {
+        const Double8 difference = load(x + k) - load(y + k);
+        store(z + k, difference);
+        return load(p + k) * difference;
+      },
+      [=](std::size_t k) {
+        z[k] = x[k] - y[k];
+        return p[k] * z[k];
+      });
+}
+
+/// z = x + y; returns the largest |y|.
+double add_and_largest(std::size_t n, const double* x, const double* y, double* z) {
+  Double8 largest{};
   std::size_t k = 0;
-  for (; k + lanes <= n; k += lanes) (k & lanes ? s1 : s0) += load(x + k) * load(y + k);
-  double rest = 0.0;
-  for (; k < n; ++k) rest += x[k] * y[k];
-  return sum(s0 + s1) + rest;
+  for (; k + lanes <= n; k += lanes) {
+    const Double8 v = load(y + k);
+    store(z + k, load(x + k) + v);
+    largest = maximum(largest, maximum(v, -v));
+  }
+  double result = 0.0;
+  for (int i = 0; i < lanes; ++i) result = std::fmax(result, largest[i]);
+  for (; k < n; ++k) {
+    z[k] = x[k] + y[k];
+    result = std::fmax(result, std::fabs(y[k]));
+  }
+  return result;
+}
+
+/// y0 += a x0, y1 += a x1
+void add_scaled_twice(std::size_t n, double a, const double* x0, double* y0, const double* x1, double* y1) {
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
+    store(y0 + k, load(y0 + k) + a * load(x0 + k));
+    store(y1 + k, load(y1 + k) + a * load(x1 + k));
+  }
+  for (; k < n; ++k) y0[k] += a * x0[k], y1[k] += a * x1[k];
 }
 
 /// z = a x + b y
@@ -81,6 +135,23 @@ bool finite(std::size_t n, const double* x) {
   for (; k + lanes <= n; k += lanes) fine = fine & less(load(x + k), huge) & less(-huge, load(x + k));
   bool tail = true;
   for (; k < n; ++k) tail &= std::fabs(x[k]) < huge;
+  return bits(~fine) == 0 && tail;
+}
+
+/// F of an implicit step from f = dU/dq: f <- (q - psi) + gamma f; returns whether f was finite.
+bool implicit_residual(std::size_t n, const double* q, const double* psi, double gamma, double* f) {
+  Mask8 fine = first_lanes(lanes);
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
+    const Double8 a = load(f + k);
+    fine = fine & less(a, huge) & less(-huge, a);
+    store(f + k, (load(q + k) - load(psi + k)) + gamma * a);
+  }
+  bool tail = true;
+  for (; k < n; ++k) {
+    tail &= std::fabs(f[k]) < huge;
+    f[k] = (q[k] - psi[k]) + gamma * f[k];
+  }
   return bits(~fine) == 0 && tail;
 }
 

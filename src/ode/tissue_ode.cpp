@@ -41,13 +41,13 @@ struct TissueOde::Impl : TissueGradient {
     workers.for_each(padded.blocks(), task);
   }
 
-  /// visit(k) for the x and y components of the points of one block.
+  /// visit(range) of the x and of the y components of the points of one block.
   template <class Visit>
   void visit_positions(int block, const Visit& visit) const {
     const Range points = points_of(block);
     const auto all = static_cast<std::size_t>(layout.points());
-    for (std::size_t k = points.begin; k < points.end; ++k) visit(k);
-    for (std::size_t k = all + points.begin; k < all + points.end; ++k) visit(k);
+    visit(points);
+    visit(Range{all + points.begin, all + points.end});
   }
 
   CellPreconditioner preconditioner;
@@ -116,7 +116,7 @@ void TissueOde::begin_implicit_step(double t, double gamma, std::span<const doub
   m.gamma = gamma;
   const double* memory_psi = psi.data() + m.layout.positions();
   m.for_each_block([&](int block) {
-    m.visit_positions(block, [&](std::size_t k) { m.position_psi[k] = psi[k]; });
+    m.visit_positions(block, [&](Range r) { std::copy_n(&psi[r.begin], r.end - r.begin, &m.position_psi[r.begin]); });
     for (std::size_t c = m.padded.cells_of(block).begin; c < m.padded.cells_of(block).end; ++c) {
       const double r = gamma * m.inverse_tau[c], scale = 1.0 / (1.0 + r), memory = m.memory[c];
       const int cell = static_cast<int>(c);
@@ -134,9 +134,9 @@ Evaluation TissueOde::residual(std::span<const double> q, std::span<double> resi
   const int points = m.layout.points();
   const Evaluation evaluation =
       m.evaluate(m.step_time, m.positions_view(q), residual.first(points), residual.subspan(points, points), [&](int block) {
-        const bool fine = m.finite(residual.first(points), residual.subspan(points, points), block);
-        m.visit_positions(block, [&m, q, residual, gamma = m.gamma](std::size_t k) {
-          residual[k] = (q[k] - m.position_psi[k]) + gamma * residual[k];
+        bool fine = true;
+        m.visit_positions(block, [&](Range r) {
+          fine &= m.kernel.implicit_residual(r.end - r.begin, &q[r.begin], &m.position_psi[r.begin], m.gamma, &residual[r.begin]);
         });
         return fine;
       });
@@ -172,7 +172,7 @@ void TissueOde::product(std::span<const double> v, std::span<double> out) {
   m.for_each_block([&](int block) {
     m.padded.fold_and_pack(h.ox, out.first(vertices), block);
     m.padded.fold_and_pack(h.oy, out.subspan(points, vertices), block);
-    m.visit_positions(block, [v, out, gamma = m.gamma](std::size_t k) { out[k] = v[k] + gamma * out[k]; });
+    m.visit_positions(block, [&](Range r) { m.kernel.linear_sum(r.end - r.begin, 1.0, &v[r.begin], m.gamma, &out[r.begin], &out[r.begin]); });
   });
   m.extra_blocks.add_product(m.gamma, m.layout, v, out);
 }
@@ -238,14 +238,15 @@ double TissueOde::step_limit(std::span<const double> q, std::span<const double> 
 void TissueOde::recover_memory(std::span<const double> q, std::span<double> memory) {
   Impl& m = *impl_;
   const double *x = q.data(), *y = q.data() + m.layout.points();
+  const auto rest_length = [x, y, a = m.rest_a.data(), b = m.rest_b.data()](int v, int next) {
+    const double dx = x[next] - x[v], dy = y[next] - y[v];
+    return a[v] + b[v] * std::sqrt(dx * dx + dy * dy);
+  };
   m.for_each_block([&](int block) {
     for (auto c = static_cast<int>(m.padded.cells_of(block).begin); c < static_cast<int>(m.padded.cells_of(block).end); ++c) {
-      const int first = m.tissue.first_vertex(c), end = m.tissue.end_vertex(c);
-      for (int v = first; v < end; ++v) {
-        const int w = v + 1 == end ? first : v + 1;
-        const double dx = x[w] - x[v], dy = y[w] - y[v];
-        memory[v] = m.rest_a[v] + m.rest_b[v] * std::sqrt(dx * dx + dy * dy);
-      }
+      const int first = m.tissue.first_vertex(c), last = m.tissue.end_vertex(c) - 1;
+      for (int v = first; v < last; ++v) memory[v] = rest_length(v, v + 1);
+      memory[last] = rest_length(last, first);
     }
   });
 }

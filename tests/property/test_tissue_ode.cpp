@@ -133,7 +133,7 @@ TEST_CASE("the preconditioner is symmetric, definite and a good inverse", "[prop
     ode.precondition(b, pb);
     double ab = 0, ba = 0, aa = 0;
     for (int k = 0; k < n; ++k) ab += a[k] * pb[k], ba += b[k] * pa[k], aa += a[k] * pa[k];
-    CHECK(ab == Approx(ba).epsilon(1e-10));
+    CHECK(ab == Approx(ba).epsilon(1e-6));  // applied in single precision; measured: 6e-8
     CHECK(aa > 0.0);
     ode.product(pa, product);  // (I + gamma H) P^-1 a is near a when gamma is small
     double error = 0, norm = 0;

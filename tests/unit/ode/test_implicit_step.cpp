@@ -123,7 +123,7 @@ TEST_CASE("the preconditioner of cells without neighbours is the exact inverse",
       ode.product(span(z), span(back));
       CAPTURE(least, gamma);
       CHECK(relative_difference(z, b) > 0.003);
-      CHECK(relative_difference(back, b) < 1e-10);
+      CHECK(relative_difference(back, b) < 1e-6);  // factors in single precision; measured: 1.3e-7
     }
   }
 }
@@ -159,7 +159,10 @@ TEST_CASE("the chain of the purse string is factored exactly, every time anew an
       ode.precondition(span(b), span(z));
       ode.product(span(z), span(back));
       CAPTURE(size, gamma);
-      CHECK(relative_difference(back, b) < 1e-9);
+      const int vertices = state.tissue.vertex_count();  // of cells, which are in single precision
+      for (const int first : {vertices, 2 * vertices + size})
+        CHECK(relative_difference(back.segment(first, size), b.segment(first, size)) < 1e-9);
+      CHECK(relative_difference(back, b) < 1e-6);
     }
   }
 }
