@@ -49,66 +49,34 @@ void contact_gradient(const Shell& s, const ContactScalars& c, const WindowGroup
   }
 }
 
-/// A point term: u'' along n, u'/d across it.
-inline ContactFactor point_factor(const ContactScalars& c, int p, int q, double dx, double dy, double sign,
-                                  double lowest) {
-  const double d2 = dx * dx + dy * dy, inverse = 1.0 / std::sqrt(d2);
-  const bool inner = d2 < c.inner2;
-  const double second = inner ? c.inner_b : c.outer_b;
-  const double over = (inner ? c.inner_a : c.outer_a) * inverse + second;
-  return {dx * inverse,
-          dy * inverse,
-          0.0,
-          std::fmax(sign * second, lowest),
-          std::fmax(sign * over, lowest),
-          0.0,
-          0.0,
-          p,
-          q};
-}
-
-/// Appends the second derivatives of the terms collected.
-ContactFactor* append_factors(const Shell& s, const ContactScalars& c, const LiveTerms& terms, double lowest, ContactFactor* out) {
-  struct Column {
-    alignas(64) double at[LiveTerms::room];
-  };
-  Column ex, ey, inverse_length, nx, ny, t, na, gg, gb, bb;
-  for (int k = 0; k < terms.count; ++k) {
-    const int q = terms.at(k).q;
-    ex.at[k] = s.ex[q], ey.at[k] = s.ey[q], inverse_length.at[k] = s.inverse_length[q];
-  }
+/// Appends the repulsive terms of those collected.
+ContactFactor* append_factors(const ContactScalars& c, const LiveTerms& terms, ContactFactor* out) {
+  const double root = std::sqrt(c.inner_b);
   for (int k = 0; k < terms.count; k += lanes) {
-    const Double8 x = load(terms.rx + k), y = load(terms.ry + k), where = load(terms.t + k);
-    const Double8 d2 = x * x + y * y, inverse = inverse_square_root(d2), d = d2 * inverse;
-    const Mask8 inner = less(d2, c.inner2), segment = less(0.0, where);
-    const Double8 second = select(inner, broadcast(c.inner_b), broadcast(c.outer_b));              // u''
-    const Double8 slope = select(inner, broadcast(c.inner_a), broadcast(c.outer_a)) + second * d;  // u'
-    const Double8 n_x = x * inverse, n_y = y * inverse;
-    // The tangent of a factor is n rotated by -90 degrees; signed along the segment.
-    const Double8 along = negate(less(n_x * load(ey.at + k), n_y * load(ex.at + k)), load(inverse_length.at + k));
-    store(nx.at + k, n_x);
-    store(ny.at + k, n_y);
-    store(t.at + k, only(segment, where));
-    store(na.at + k, maximum(with_sign_of(second, where), broadcast(lowest)));
-    store(gg.at + k, only(~segment, maximum(with_sign_of(slope * inverse, where), broadcast(lowest))));
-    store(gb.at + k, only(segment, slope * along));
-    store(bb.at + k, only(segment, -slope * d * (along * along)));
-  }
-  for (int k = 0; k < terms.count; ++k) {
-    const TermSlots slots = terms.at(k);
-    *out++ = {nx.at[k], ny.at[k], t.at[k], na.at[k], gg.at[k], gb.at[k], bb.at[k], slots.p, slots.q};
+    const Double8 x = load(terms.rx + k), y = load(terms.ry + k), d2 = x * x + y * y, scale = root * inverse_square_root(d2);
+    const Mask8 added = less(0.0, with_sign_of(broadcast(1.0), load(terms.t + k)));
+    alignas(64) double nx[lanes], ny[lanes];
+    store(nx, scale * x);
+    store(ny, scale * y);
+    for (unsigned left = bits(less(d2, c.inner2) & added & first_lanes(terms.count - k)); left != 0; left &= left - 1) {
+      const int lane = __builtin_ctz(left);
+      const TermSlots slots = terms.at(k + lane);
+      *out++ = {nx[lane], ny[lane], terms.t[k + lane], slots.p, slots.q};
+    }
   }
   return out;
 }
 
 std::size_t contact_linearise(const Shell& s, const ContactScalars& c, const WindowGroup* groups, std::size_t windows,
-                              const SelfPair* pairs, std::size_t pair_count, double lowest, ContactFactor* factors) {
+                              const SelfPair* pairs, std::size_t pair_count, ContactFactor* factors) {
   ContactFactor* out = factors;
-  for_live_terms(s, c, groups, windows, [&](const LiveTerms& terms) { out = append_factors(s, c, terms, lowest, out); });
+  for_live_terms(s, c, groups, windows, [&](const LiveTerms& terms) { out = append_factors(c, terms, out); });
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
-    const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j];
-    if (dx * dx + dy * dy < c.self2) *out++ = point_factor(c, i, j, dx, dy, 1.0, lowest);
+    const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
+    if (d2 >= c.self2) continue;
+    const double scale = std::sqrt(c.inner_b / d2);
+    *out++ = {scale * dx, scale * dy, 0.0, i, j};
   }
   return static_cast<std::size_t>(out - factors);
 }
@@ -118,17 +86,11 @@ void contact_product(const ContactFactor* factors, std::size_t count, const doub
   for (std::size_t k = 0; k < count; ++k) {
     const ContactFactor& f = factors[k];
     const int p = f.p, a = f.q, b = f.q + 1;
-    const double dx = vx[b] - vx[a], dy = vy[b] - vy[a];
-    const double wx = vx[p] - vx[a] - f.t * dx, wy = vy[p] - vy[a] - f.t * dy;
-    const double alpha = f.nx * wx + f.ny * wy;
-    const double g = f.ny * wx - f.nx * wy;  // tangent (ny, -nx)
-    const double beta = f.nx * dx + f.ny * dy;
-    const double ca = f.na * alpha, cg = f.gg * g + f.gb * beta, cb = f.gb * g + f.bb * beta;
-    const double fx = ca * f.nx + cg * f.ny, fy = ca * f.ny - cg * f.nx;
+    const double wx = vx[p] - vx[a] - f.t * (vx[b] - vx[a]), wy = vy[p] - vy[a] - f.t * (vy[b] - vy[a]);
+    const double along = f.nx * wx + f.ny * wy, fx = along * f.nx, fy = along * f.ny;
     ox[p] += fx, oy[p] += fy;
-    const double bx = cb * f.nx - f.t * fx, by = cb * f.ny - f.t * fy;
-    ox[b] += bx, oy[b] += by;
-    ox[a] -= fx + bx, oy[a] -= fy + by;
+    ox[b] -= f.t * fx, oy[b] -= f.t * fy;
+    ox[a] -= (1.0 - f.t) * fx, oy[a] -= (1.0 - f.t) * fy;
   }
 }
 
@@ -137,8 +99,8 @@ void contact_diagonal(const ContactFactor* factors, std::size_t count, double* b
   auto* at = reinterpret_cast<Pair*>(blocks);
   for (std::size_t k = 0; k < count; ++k) {
     const ContactFactor& f = factors[k];
-    const double ax = f.na * f.nx, s = 1.0 - f.t;
-    const Pair first = {ax * f.nx, ax * f.ny}, second = {f.na * f.ny * f.ny, 0.0};
+    const double s = 1.0 - f.t;
+    const Pair first = {f.nx * f.nx, f.nx * f.ny}, second = {f.ny * f.ny, 0.0};
     const auto add = [&](int slot, double weight) {
       at[2 * slot] += weight * first;
       at[2 * slot + 1] += weight * second;

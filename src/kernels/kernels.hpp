@@ -94,10 +94,11 @@ struct SelfPair {
   int i, j;
 };
 
-/// One live term of the contact energy, linearised: with w = (1, -(1-t), -t) on (p, q, q + 1), normal n, tangent m,
-/// alpha = n.(w v), g = m.(w v), beta = n.(v_{q+1} - v_q):  v.H v = na alpha^2 + gg g^2 + 2 gb g beta + bb beta^2.
+/// One repulsive term of the contact energy, linearised: v.H v = (n.(w v))^2 with w = (1, -(1-t), -t) on (p, q, q + 1) and n
+/// the normal times the square root of u''. What else the second derivative has (attraction, the turning of the normal, terms
+/// that are subtracted) is left out: the sum is never negative.
 struct ContactFactor {
-  double nx, ny, t, na, gg, gb, bb;
+  double nx, ny, t;
   int p, q;
 };
 
@@ -150,12 +151,11 @@ struct Table {
   void (*fold_gradient)(const Shell&, double* gx, double* gy);  ///< the same for dU/dr
   void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
   void (*contact_gradient)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*, std::size_t);
-  /// Appends live terms; returns their number. `factors` must have room for window_terms per window and 1 per pair. Needs what
-  /// shell_linearise puts into slots that repeat others.
+  /// Appends repulsive terms; returns their number. `factors` must have room for window_terms per window and 1 per pair.
   std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*,
-                                   std::size_t, double lowest_curvature, ContactFactor* factors);
+                                   std::size_t, ContactFactor* factors);
   void (*contact_product)(const ContactFactor*, std::size_t, const double* vx, const double* vy, double* ox, double* oy);
-  /// blocks: (xx, xy, yy, unused) per slot; adds the blocks that the normal curvature has on the diagonal.
+  /// blocks: (xx, xy, yy, unused) per slot; adds the blocks on the diagonal.
   void (*contact_diagonal)(const ContactFactor*, std::size_t, double* blocks);
   /// Overwrites the batch by I + gamma H of one cell per lane, without the corners that close the ring.
   void (*cell_rows8)(const CellRows&, double gamma, const CyclicBatch&);

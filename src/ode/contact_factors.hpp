@@ -1,4 +1,4 @@
-// The contact energy's second derivatives at one linearisation: the live terms of every list of contacts.
+// The contact energy's second derivatives at one linearisation: the repulsive terms of every list of contacts.
 #pragma once
 
 #include <span>
@@ -12,8 +12,7 @@ namespace suture {
 
 class ContactFactors {
  public:
-  /// lowest: curvatures below it are replaced by it.
-  void linearise(const ContactList& list, const kernels::Shell& shell, const kernels::ContactScalars& contact, double lowest,
+  void linearise(const ContactList& list, const kernels::Shell& shell, const kernels::ContactScalars& contact,
                  const kernels::Table& kernel, WorkerPool& workers);
   /// task(list, span of factors), as ContactSchedule::for_each_list.
   template <class Task>

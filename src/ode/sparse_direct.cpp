@@ -46,14 +46,10 @@ void SparseDirect::add_shell(double gamma, int cell) {
 }
 
 void SparseDirect::add_contact(double gamma, const kernels::ContactFactor& f) {
-  const double s = 1.0 - f.t;  // alpha, g and beta of ContactFactor, as gradients in (p, q, q + 1)
-  const double alpha[6] = {f.nx, f.ny, -s * f.nx, -s * f.ny, -f.t * f.nx, -f.t * f.ny};
-  const double along[6] = {f.ny, -f.nx, -s * f.ny, s * f.nx, -f.t * f.ny, f.t * f.nx};
-  const double beta[6] = {0.0, 0.0, -f.nx, -f.ny, f.nx, f.ny};
-  add_element(freedoms(padded_->vertex(f.p), padded_->vertex(f.q), padded_->vertex(f.q + 1)), [&](std::size_t a, std::size_t b) {
-    return gamma * (f.na * alpha[a] * alpha[b] + f.gg * along[a] * along[b] + f.bb * beta[a] * beta[b] +
-                    f.gb * (along[a] * beta[b] + beta[a] * along[b]));
-  });
+  const double s = 1.0 - f.t;
+  const double along[6] = {f.nx, f.ny, -s * f.nx, -s * f.ny, -f.t * f.nx, -f.t * f.ny};
+  add_element(freedoms(padded_->vertex(f.p), padded_->vertex(f.q), padded_->vertex(f.q + 1)),
+              [&](std::size_t a, std::size_t b) { return gamma * along[a] * along[b]; });
 }
 
 void SparseDirect::add_extra(double gamma, const BlockList& extra) {

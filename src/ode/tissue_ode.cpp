@@ -146,11 +146,8 @@ Evaluation TissueOde::residual(std::span<const double> q, std::span<double> resi
 
 void TissueOde::linearise() {
   Impl& m = *impl_;
-  // Curvature below -0.3/gamma would make I + gamma H indefinite; leaving it out of the Newton matrix costs iterations,
-  // not accuracy (studies: 918 -> 20 negative-curvature stops).
-  const double lowest = -0.3 / m.gamma;
   m.for_each_block([&](int block) { m.kernel.shell_linearise(m.padded.shell_of(block), m.padded.hessian_of(block)); });
-  m.factors.linearise(m.list, m.padded.shell, m.contact, lowest, m.kernel, m.workers);
+  m.factors.linearise(m.list, m.padded.shell, m.contact, m.kernel, m.workers);
   m.extra_blocks.clear();
   for (const auto& term : m.extra) term->add_hessian(m.step_time, m.positions_view(m.linearised_at), m.extra_blocks);
 }

@@ -91,12 +91,14 @@ TEST_CASE("the rate is pure: the same bits for the same state", "[property]") {
 
 TEST_CASE("the matrix of the implicit step is the derivative of its residual", "[property]") {
   for (const SpringLaw law : {SpringLaw::quadratic, SpringLaw::relative}) {
-    const Config config = test::reference_config(law);
+    Config config = test::reference_config(law);
+    // Part of the contacts' second derivatives is left out on purpose (test_implicit_step.cpp has what is kept); nothing else is.
+    config.contact.energy = 1e-12;
     TissueState state = test::reference_state(config);
-    for (double& l0 : state.mutable_view().rest_length) l0 *= 0.5;  // no segment compressed: nothing is clipped
+    for (double& l0 : state.mutable_view().rest_length) l0 *= 0.5;  // no segment compressed: nothing is left out
     TissueOde ode(state.tissue, 0, ode_options(config), {});
     const int n = ode.position_count();
-    const double gamma = 0.002;  // small enough that no contact curvature is clipped
+    const double gamma = 0.002;
     ode.begin_implicit_step(0.0, gamma, state.values);
     std::vector<double> q(state.values.begin(), state.values.begin() + n), f0(n), f1(n), hv(n), moved(n);
     const auto v = random_direction(n, 3);

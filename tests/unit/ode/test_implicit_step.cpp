@@ -6,6 +6,7 @@
 
 #include "support/implicit_step.hpp"
 #include "support/integration.hpp"
+#include "support/newton_terms.hpp"
 #include "support/random_tissue.hpp"
 #include "suture/physics/purse_string_chain.hpp"
 #include "suture/physics/purse_string_operations.hpp"
@@ -42,7 +43,7 @@ TEST_CASE("preconditioned conjugate gradients solve what a sparse factorisation 
       ode.set_up_preconditioner();
       const int n = ode.position_count();
       Eigen::SparseMatrix<double> matrix =
-          gamma * assemble_hessian(make_cell_terms(state.tissue, config), 0.0, state.view());
+          gamma * assemble_hessian(newton_terms(state.tissue, config), 0.0, state.view());
       Eigen::SparseMatrix<double> identity(n, n);
       identity.setIdentity();
       matrix += identity;
@@ -94,7 +95,7 @@ TEST_CASE("eliminating rest lengths scales the membrane stiffness by (tau + gamm
     Config config;
     config.contact = contact_law(contact_distance);
     const Eigen::SparseMatrix<double> hessian =
-        assemble_hessian(make_cell_terms(equivalent.tissue, config), 0.0, equivalent.view());
+        assemble_hessian(newton_terms(equivalent.tissue, config), 0.0, equivalent.view());
     const Eigen::VectorXd v = wave(ode.position_count()), expected = v + gamma * (hessian * v);
     Eigen::VectorXd product(v.size());
     ode.product(span(v), span(product));

@@ -63,7 +63,7 @@ Computed everything(const kernels::Table& table, const TissueState& state, Sprin
   table.shell_linearise(padded.shell, padded.hessian);
   std::vector<kernels::ContactFactor> factors(16 * windows.size() + pairs.size());
   const std::size_t count =
-      table.contact_linearise(padded.shell, contact, groups.data(), groups.windows(), pairs.data(), pairs.size(), -100.0, factors.data());
+      table.contact_linearise(padded.shell, contact, groups.data(), groups.windows(), pairs.data(), pairs.size(), factors.data());
   REQUIRE(count > 50);
   result.push_back(static_cast<double>(count));
   std::vector<double> direction(n);
@@ -79,7 +79,7 @@ Computed everything(const kernels::Table& table, const TissueState& state, Sprin
   CellPreconditioner preconditioner(state.tissue, padded, 0, table);
   WorkerPool alone(1);
   ContactFactors contacts;
-  contacts.linearise(list, padded.shell, contact, -100.0, table, alone);
+  contacts.linearise(list, padded.shell, contact, table, alone);
   preconditioner.set_up(0.003, contacts, {}, alone);
   std::vector<double> solution(2 * n), rhs(2 * n);
   for (int k = 0; k < 2 * n; ++k) rhs[k] = std::sin(1.3 * k);
@@ -165,9 +165,9 @@ TEST_CASE("the vector operations equal plain loops", "[unit]") {
 TEST_CASE("the diagonal blocks of contacts are those of their product", "[unit]") {
   constexpr int slots = 6;
   std::vector<kernels::ContactFactor> factors;
-  for (int k = 0; k < 9; ++k) {  // normal curvature only, which is what the diagonal holds
+  for (int k = 0; k < 9; ++k) {
     const double angle = 0.9 * k;
-    factors.push_back({std::cos(angle), std::sin(angle), 0.1 * k, k - 2.5, 0.0, 0.0, 0.0, k % 3, 3 + k % 2});
+    factors.push_back({k * std::cos(angle), k * std::sin(angle), 0.1 * k, k % 3, 3 + k % 2});
   }
   for (const kernels::Table* table : runnable_tables()) {
     alignas(64) double blocks[4 * slots] = {};
