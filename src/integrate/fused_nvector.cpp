@@ -113,11 +113,22 @@ N_Vector make_fused_vector(std::size_t n, SUNContext context, std::shared_ptr<Ve
 std::span<double> values(N_Vector v) { return {data(v), content(v).size}; }
 
 void VectorFamily::rearrange(std::span<const int> source) {
+  struct Run {
+    std::size_t to;
+    int from;
+    std::size_t length;
+  };
+  std::vector<Run> runs;  // few: an event inserts or drops points of the ring
+  for (std::size_t k = 0; k < source.size(); ++k)
+    if (k > 0 && source[k] == source[k - 1] + 1)
+      ++runs.back().length;
+    else
+      runs.push_back({k, source[k], 1});
   for (N_Vector v : members) {
     Content& c = content(v);
     AlignedBuffer before = std::move(c.buffer);
     c.allocate(source.size());
-    for (std::size_t k = 0; k < source.size(); ++k) c.data[k] = before.data()[source[k]];
+    for (const Run& run : runs) std::copy_n(before.data() + run.from, run.length, c.data + run.to);
   }
 }
 

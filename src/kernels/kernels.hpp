@@ -50,6 +50,12 @@ struct RestLengthFlow {
   double* rate = nullptr;
 };
 
+/// Rest lengths a + b l at (x, y), without padding, from the first vertex of the shell's first cell on.
+struct RestLengthLine {
+  const double *x = nullptr, *y = nullptr, *a = nullptr, *b = nullptr;
+  double* rest_length = nullptr;
+};
+
 /// Second derivatives of the shell at one point (see shell_linearise), at the slots of the vertices; nx, ny also at the slot
 /// before and the one after.
 struct ShellHessian {
@@ -150,6 +156,7 @@ struct Table {
   void (*fold_cells)(const Shell&, double* padded, double* values);
   void (*fold_gradient)(const Shell&, double* gx, double* gy);  ///< the same for dU/dr
   void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
+  void (*rest_lengths)(const Shell&, const RestLengthLine&);
   void (*contact_gradient)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*, std::size_t);
   /// Appends repulsive terms; returns their number. `factors` must have room for window_terms per window and 1 per pair.
   std::size_t (*contact_linearise)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*,

@@ -274,3 +274,25 @@ void rest_length_rate(const Shell& s, const RestLengthFlow& f) {
     vertex += n;
   }
 }
+
+void rest_lengths(const Shell& s, const RestLengthLine& line) {
+  std::size_t first = 0;
+  for (int cell = 0; cell < s.cells; ++cell) {
+    const int n = s.count[cell];
+    const double *x = line.x + first, *y = line.y + first, *a = line.a + first, *b = line.b + first;
+    double* out = line.rest_length + first;
+    const auto one = [&](int k, int next) {
+      const double dx = x[next] - x[k], dy = y[next] - y[k];
+      out[k] = a[k] + b[k] * std::sqrt(dx * dx + dy * dy);
+    };
+    for_vectors(
+        n - 1,
+        [&](int k) {
+          const Double8 dx = load(x + k + 1) - load(x + k), dy = load(y + k + 1) - load(y + k);
+          store(out + k, load(a + k) + load(b + k) * square_root(dx * dx + dy * dy));
+        },
+        [&](int k) { one(k, k + 1); });
+    one(n - 1, 0);
+    first += n;
+  }
+}

@@ -82,32 +82,39 @@ void linear_sum(std::size_t n, double a, const double* x, double b, const double
   for (; k < n; ++k) z[k] = a * x[k] + b * y[k];
 }
 
-/// z = sum of c[j] x[j]
-void linear_combination(std::size_t n, int count, const double* c, const double* const* x, double* z) {
+/// z = sum of c[j] x[j]; their number is known when this is compiled, so that factors and addresses stay in registers.
+template <int count>
+void combine(std::size_t n, const double* c, const double* const* x, double* z) {
+  const double* from[count];
+  double factor[count];
+  for (int j = 0; j < count; ++j) from[j] = x[j], factor[j] = c[j];
   std::size_t k = 0;
   for (; k + lanes <= n; k += lanes) {
-    Double8 a = c[0] * load(x[0] + k);
-    for (int j = 1; j < count; ++j) a += c[j] * load(x[j] + k);
+    Double8 a = factor[0] * load(from[0] + k);
+    for (int j = 1; j < count; ++j) a += factor[j] * load(from[j] + k);
     store(z + k, a);
   }
   for (; k < n; ++k) {
-    double a = c[0] * x[0][k];
-    for (int j = 1; j < count; ++j) a += c[j] * x[j][k];
+    double a = factor[0] * from[0][k];
+    for (int j = 1; j < count; ++j) a += factor[j] * from[j][k];
     z[k] = a;
   }
 }
 
+void linear_combination(std::size_t n, int count, const double* c, const double* const* x, double* z) {
+  switch (count) {
+    case 1: return combine<1>(n, c, x, z);
+    case 2: return combine<2>(n, c, x, z);
+    case 3: return combine<3>(n, c, x, z);
+    default: break;
+  }
+  combine<4>(n, c, x, z);
+  for (int j = 4; j < count; ++j) linear_sum(n, 1.0, z, c[j], x[j], z);
+}
+
 /// z[j] = a[j] x + y[j]
 void scale_add_multi(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z) {
-  std::size_t k = 0;
-  for (; k + lanes <= n; k += lanes) {
-    const Double8 v = load(x + k);
-    for (int j = 0; j < count; ++j) store(z[j] + k, a[j] * v + load(y[j] + k));
-  }
-  for (; k < n; ++k) {
-    const double v = x[k];
-    for (int j = 0; j < count; ++j) z[j][k] = a[j] * v + y[j][k];
-  }
+  for (int j = 0; j < count; ++j) linear_sum(n, a[j], x, 1.0, y[j], z[j]);
 }
 
 /// The largest (x - x0)^2 + (y - y0)^2; what is not a number does not count.

@@ -234,17 +234,9 @@ double TissueOde::step_limit(std::span<const double> q, std::span<const double> 
 
 void TissueOde::recover_memory(std::span<const double> q, std::span<double> memory) {
   Impl& m = *impl_;
-  const double *x = q.data(), *y = q.data() + m.layout.points();
-  const auto rest_length = [x, y, a = m.rest_a.data(), b = m.rest_b.data()](int v, int next) {
-    const double dx = x[next] - x[v], dy = y[next] - y[v];
-    return a[v] + b[v] * std::sqrt(dx * dx + dy * dy);
-  };
   m.for_each_block([&](int block) {
-    for (auto c = static_cast<int>(m.padded.cells_of(block).begin); c < static_cast<int>(m.padded.cells_of(block).end); ++c) {
-      const int first = m.tissue.first_vertex(c), last = m.tissue.end_vertex(c) - 1;
-      for (int v = first; v < last; ++v) memory[v] = rest_length(v, v + 1);
-      memory[last] = rest_length(last, first);
-    }
+    const std::size_t first = m.padded.vertices_of(block).begin;
+    m.kernel.rest_lengths(m.padded.shell_of(block), {&q[first], &q[m.layout.points() + first], &m.rest_a[first], &m.rest_b[first], &memory[first]});
   });
 }
 

@@ -123,11 +123,17 @@ TEST_CASE("the vector operations equal plain loops", "[unit]") {
     table->linear_sum(n, 2.5, x, -0.3, y, z);
     for (std::size_t k = 0; k < n; ++k) expected[k] = 2.5 * x[k] - 0.3 * y[k];
     CHECK(largest_difference({z, n}, {expected, n}) < 1e-15 * 4);
-    const double c[3] = {1.0, -2.0, 0.7};
-    const double* sources[3] = {x, y, w};
-    table->linear_combination(n, 3, c, sources, z);
-    for (std::size_t k = 0; k < n; ++k) expected[k] = x[k] - 2.0 * y[k] + 0.7 * w[k];
-    CHECK(largest_difference({z, n}, {expected, n}) < 1e-14);
+    const double c[6] = {1.0, -2.0, 0.7, 0.4, -0.1, 3.0};
+    const double* sources[6] = {x, y, w, y, x, w};
+    for (int count = 1; count <= 6; ++count) {
+      table->linear_combination(n, count, c, sources, z);
+      for (std::size_t k = 0; k < n; ++k) {
+        expected[k] = 0.0;
+        for (int j = 0; j < count; ++j) expected[k] += c[j] * sources[j][k];
+      }
+      CAPTURE(count);
+      CHECK(largest_difference({z, n}, {expected, n}) < 1e-13);
+    }
     const double* terms[2] = {y, w};
     double* results[2] = {z, z2};
     table->scale_add_multi(n, 2, c, x, terms, results);
