@@ -20,7 +20,8 @@ class WoundNeighbourhood {
 
   /// As WoundTracker::update, vertices numbered as in `tissue`. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
-  /// One flag per vertex of `tissue`, by probe_disc; zero for cells that are not looked at. Valid until the next call.
+  /// One flag per vertex of `tissue`, by probe_disc; zero for cells that are not looked at, whose positions are not read.
+  /// Valid until the next call.
   const std::vector<char>& exposed(const Tissue& tissue, const StateView& state);
   /// What exposed() would have given for the state of the last update(), which has found it on its way.
   const std::vector<char>& exposed_at_update() const { return exposed_; }
