@@ -57,15 +57,19 @@ std::optional<Wound> find_wound(const FreeBoundary& boundary, const Wound* previ
   const auto candidate = [&](const BoundaryLoop& loop) {
     return loop.is_hole() && (!previous || boxes_meet(bounding_box(loop.outline), place));
   };
-  const auto candidates = std::ranges::count_if(boundary.loops(), candidate);
+  const auto alone = [&](const BoundaryLoop& loop) {
+    return std::ranges::none_of(boundary.loops(), [&](const BoundaryLoop& other) {
+      return &other != &loop && candidate(other) && overlap_area(other.outline, previous->outline) > 0.0;
+    });
+  };
   const BoundaryLoop* chosen = nullptr;
   double most = 0.0, area_of_parts = 0.0;
   int parts = 0;
   for (const BoundaryLoop& loop : boundary.loops()) {
     if (!candidate(loop)) continue;
     double merit = -loop.signed_area;
-    // A single candidate that begins inside the previous wound overlaps it, and how much does not matter.
-    if (previous && !(candidates == 1 && contains(previous->outline, loop.outline.front()))) merit = overlap_area(loop.outline, previous->outline);
+    // One that begins inside the previous wound overlaps it; how much does not matter if no other does.
+    if (previous && !(contains(previous->outline, loop.outline.front()) && alone(loop))) merit = overlap_area(loop.outline, previous->outline);
     if (!(merit > 0.0)) continue;
     if (previous || !chosen) {
       ++parts;
