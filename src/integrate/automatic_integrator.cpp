@@ -27,6 +27,9 @@ class AutomaticIntegrator final : public Integrator {
   double last_step() const override { return current_->last_step(); }
   int last_order() const override { return current_->last_order(); }
   void interpolate(double t, std::span<double> y) const override { current_->interpolate(t, y); }
+  void interpolate_some(double t, std::span<const int> components, std::span<double> y) const override {
+    current_->interpolate_some(t, components, y);
+  }
   Statistics statistics() const override {
     Statistics total = before_;
     return total += current_->statistics();

@@ -53,15 +53,27 @@ void ExplicitIntegrator::resume(double t, std::span<const double> y, std::span<c
   restarted(before);
 }
 
+ExplicitIntegrator::Hermite ExplicitIntegrator::hermite(double t) const {
+  const double h = last_step_, s = (t - (time_ - h)) / h;
+  return {(1.0 + 2.0 * s) * (1.0 - s) * (1.0 - s), s * s * (3.0 - 2.0 * s), h * s * (1.0 - s) * (1.0 - s), -h * s * s * (1.0 - s)};
+}
+
 void ExplicitIntegrator::interpolate(double t, std::span<double> y) const {
-  const double h = last_step_, s = h > 0.0 ? (t - (time_ - h)) / h : 1.0;
-  const double a = (1.0 + 2.0 * s) * (1.0 - s) * (1.0 - s), b = s * s * (3.0 - 2.0 * s);
-  const double c = h * s * (1.0 - s) * (1.0 - s), d = -h * s * s * (1.0 - s);
-  if (h == 0.0) {
+  if (last_step_ == 0.0) {
     std::copy(y_.begin(), y_.end(), y.begin());
     return;
   }
-  for (std::size_t k = 0; k < y.size(); ++k) y[k] = a * y_before_[k] + b * y_[k] + c * f_before_[k] + d * f_[k];
+  const Hermite w = hermite(t);
+  for (std::size_t k = 0; k < y.size(); ++k) y[k] = value(w, k);
+}
+
+void ExplicitIntegrator::interpolate_some(double t, std::span<const int> components, std::span<double> y) const {
+  if (last_step_ == 0.0) {
+    for (const int k : components) y[k] = y_[k];
+    return;
+  }
+  const Hermite w = hermite(t);
+  for (const int k : components) y[k] = value(w, static_cast<std::size_t>(k));
 }
 
 void ExplicitIntegrator::fail(const std::string& what, double h, std::span<const double> errors) const {

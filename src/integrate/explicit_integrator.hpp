@@ -21,6 +21,7 @@ class ExplicitIntegrator : public Integrator {
   int last_order() const override { return order_; }
   /// Cubic Hermite between the ends of the last step.
   void interpolate(double t, std::span<double> y) const override;
+  void interpolate_some(double t, std::span<const int> components, std::span<double> y) const override;
   Statistics statistics() const override { return counts_; }
   void resume(double t, std::span<const double> y, std::span<const int> source) override;
 
@@ -49,6 +50,14 @@ class ExplicitIntegrator : public Integrator {
   template <std::size_t count>
   void combine(std::vector<double>& out, const std::array<double, count>& coefficients, const std::array<const double*, count>& vectors) const {
     operations_.linear_combination(out.size(), count, coefficients.data(), vectors.data(), out.data());
+  }
+
+  struct Hermite {
+    double before, after, rate_before, rate_after;  // weights of the state and the rate at the ends of the last step
+  };
+  Hermite hermite(double t) const;
+  double value(const Hermite& w, std::size_t k) const {
+    return w.before * y_before_[k] + w.after * y_[k] + w.rate_before * f_before_[k] + w.rate_after * f_[k];
   }
 
   OdeSystem* system_;

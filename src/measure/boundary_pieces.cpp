@@ -34,7 +34,8 @@ Point BoundaryPieces::point(const Piece& piece, double parameter, double offset)
   if (piece.arc) {
     const MembraneSegment& before = grid[tissue_->previous(piece.feature)];
     const MembraneSegment& after = grid[piece.feature];
-    const double c = offset * std::cos(parameter), s = offset * std::sin(parameter);
+    const bool begins = parameter == 0.0;  // as most arcs do: cos 0 = 1 and sin 0 = 0 exactly
+    const double c = begins ? offset : offset * std::cos(parameter), s = begins ? 0.0 : offset * std::sin(parameter);
     return {after.ax + c * before.uy + s * before.ux, after.ay - c * before.ux + s * before.uy};
   }
   const MembraneSegment& segment = grid[piece.feature];

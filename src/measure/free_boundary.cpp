@@ -176,9 +176,17 @@ FreeBoundary::FreeBoundary(FreeBoundary&&) noexcept = default;
 FreeBoundary& FreeBoundary::operator=(FreeBoundary&&) noexcept = default;
 
 void FreeBoundary::evaluate(const Tissue& tissue, const StateView& state) {
+  expose(tissue, state);
+  trace(tissue, state);
+}
+
+void FreeBoundary::expose(const Tissue& tissue, const StateView& state) {
+  impl_->grid.build(tissue, state, grid_bucket_size(impl_->membrane));
+  measure_exposure(tissue, state, impl_->grid, impl_->membrane, ExposureRule::probe_disc, impl_->exposure);
+}
+
+void FreeBoundary::trace(const Tissue& tissue, const StateView& state) {
   Impl& m = *impl_;
-  m.grid.build(tissue, state, grid_bucket_size(m.membrane));
-  measure_exposure(tissue, state, m.grid, m.membrane, ExposureRule::probe_disc, m.exposure);
   m.link(tissue);
   m.trace(tissue, state);
   m.place_vertices(tissue);

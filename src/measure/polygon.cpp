@@ -7,19 +7,50 @@
 namespace suture {
 namespace {
 
-/// x of the crossings of a polygon with the horizontal line at y, ascending.
-void crossings(std::span<const Point> polygon, double y, std::vector<double>& out) {
-  out.clear();
+/// Horizontal lines at equal distances across [low, low + count step].
+struct Lines {
+  double low, step;
+  int count;
+  double y(int i) const { return low + (i + 0.5) * step; }
+};
+
+/// x of the crossings of a polygon with each line, ascending: those of line i are x[start[i]] .. x[start[i + 1] - 1].
+struct Crossings {
+  std::vector<double> x;
+  std::vector<int> start;
+  std::span<const double> of(int i) const { return std::span(x).subspan(start[i], start[i + 1] - start[i]); }
+};
+
+/// visit(line, a, b) for every line that crosses the edge from a to b. A line more is tried at either end than rounding needs.
+template <class Visit>
+void visit_crossings(std::span<const Point> polygon, const Lines& lines, const Visit& visit) {
+  const auto index = [&](double y) { return std::clamp((y - lines.low) / lines.step, -1.0, lines.count + 1.0); };
   Point a = polygon.back();
   for (const Point b : polygon) {
-    if ((a.y > y) != (b.y > y)) out.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+    const int first = std::max(0, static_cast<int>(index(std::min(a.y, b.y))) - 1);
+    const int last = std::min(lines.count - 1, static_cast<int>(index(std::max(a.y, b.y))) + 1);
+    for (int i = first; i <= last; ++i)
+      if ((a.y > lines.y(i)) != (b.y > lines.y(i))) visit(i, a, b);
     a = b;
   }
-  std::sort(out.begin(), out.end());
+}
+
+Crossings crossings(std::span<const Point> polygon, const Lines& lines) {
+  Crossings result;
+  result.start.assign(static_cast<std::size_t>(lines.count) + 1, 0);
+  visit_crossings(polygon, lines, [&](int i, Point, Point) { ++result.start[i]; });
+  int sum = 0;
+  for (int& end : result.start) sum += end, end = sum;
+  result.x.resize(static_cast<std::size_t>(sum));
+  visit_crossings(polygon, lines, [&](int i, Point a, Point b) {  // leaves every start where it should be
+    result.x[--result.start[i]] = a.x + (lines.y(i) - a.y) / (b.y - a.y) * (b.x - a.x);
+  });
+  for (int i = 0; i < lines.count; ++i) std::sort(result.x.begin() + result.start[i], result.x.begin() + result.start[i + 1]);
+  return result;
 }
 
 /// Length common to two unions of intervals given by their sorted ends.
-double common_length(const std::vector<double>& a, const std::vector<double>& b) {
+double common_length(std::span<const double> a, std::span<const double> b) {
   double sum = 0.0;
   std::size_t i = 0, j = 0;
   while (i + 1 < a.size() && j + 1 < b.size()) {
@@ -109,14 +140,10 @@ double overlap_area(std::span<const Point> a, std::span<const Point> b, int line
   const double low = std::max(box_a.y_low, box_b.y_low), high = std::min(box_a.y_high, box_b.y_high);
   if (!(high > low)) return 0.0;
   const double step = (high - low) / lines;
-  std::vector<double> in_a, in_b;
+  const Lines across{low, step, lines};
+  const Crossings in_a = crossings(a, across), in_b = crossings(b, across);
   double sum = 0.0;
-  for (int i = 0; i < lines; ++i) {
-    const double y = low + (i + 0.5) * step;
-    crossings(a, y, in_a);
-    crossings(b, y, in_b);
-    sum += common_length(in_a, in_b);
-  }
+  for (int i = 0; i < lines; ++i) sum += common_length(in_a.of(i), in_b.of(i));
   return sum * step;
 }
 

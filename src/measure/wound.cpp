@@ -37,6 +37,10 @@ Wound make_wound(const FreeBoundary& boundary, const BoundaryLoop& hole) {
   return wound;
 }
 
+bool boxes_meet(const BoundingBox& a, const BoundingBox& b) {
+  return a.x_low <= b.x_high && b.x_low <= a.x_high && a.y_low <= b.y_high && b.y_low <= a.y_high;
+}
+
 /// Whether most of the former wound lies inside the patches of cells.
 bool covered_by_tissue(const FreeBoundary& boundary, const Wound& former) {
   double covered = 0.0;
@@ -48,15 +52,24 @@ bool covered_by_tissue(const FreeBoundary& boundary, const Wound& former) {
 }  // namespace
 
 std::optional<Wound> find_wound(const FreeBoundary& boundary, const Wound* previous) {
-  const auto holes = std::ranges::count_if(boundary.loops(), &BoundaryLoop::is_hole);
+  // Without a previous wound all holes are candidates, else those that may overlap it.
+  const BoundingBox place = previous ? bounding_box(previous->outline) : BoundingBox{};
+  const auto candidate = [&](const BoundaryLoop& loop) {
+    return loop.is_hole() && (!previous || boxes_meet(bounding_box(loop.outline), place));
+  };
+  const auto alone = [&](const BoundaryLoop& loop) {
+    return std::ranges::none_of(boundary.loops(), [&](const BoundaryLoop& other) {
+      return &other != &loop && candidate(other) && overlap_area(other.outline, previous->outline) > 0.0;
+    });
+  };
   const BoundaryLoop* chosen = nullptr;
   double most = 0.0, area_of_parts = 0.0;
   int parts = 0;
   for (const BoundaryLoop& loop : boundary.loops()) {
-    if (!loop.is_hole()) continue;
+    if (!candidate(loop)) continue;
     double merit = -loop.signed_area;
-    // A single hole that begins inside the previous wound overlaps it, and how much does not matter.
-    if (previous && !(holes == 1 && contains(previous->outline, loop.outline.front()))) merit = overlap_area(loop.outline, previous->outline);
+    // One that begins inside the previous wound overlaps it; how much does not matter if no other does.
+    if (previous && !(contains(previous->outline, loop.outline.front()) && alone(loop))) merit = overlap_area(loop.outline, previous->outline);
     if (!(merit > 0.0)) continue;
     if (previous || !chosen) {
       ++parts;
@@ -89,8 +102,18 @@ WoundTracker::WoundTracker(const Membrane& membrane, ExposureRule rule) : bounda
   if (rule == ExposureRule::contact_free) strict_.emplace(membrane, rule);
 }
 
+const Exposure& WoundTracker::expose(const Tissue& tissue, const StateView& state) {
+  boundary_.expose(tissue, state);
+  return boundary_.exposure();
+}
+
 const std::optional<Wound>& WoundTracker::update(const Tissue& tissue, const StateView& state) {
-  boundary_.evaluate(tissue, state);
+  expose(tissue, state);
+  return update_exposed(tissue, state);
+}
+
+const std::optional<Wound>& WoundTracker::update_exposed(const Tissue& tissue, const StateView& state) {
+  boundary_.trace(tissue, state);
   // Once closed it stays closed: a hole that opens elsewhere later is another wound.
   if (status_ == WoundStatus::closed || status_ == WoundStatus::open_to_outside) return wound_;
   std::optional<Wound> found = find_wound(boundary_, wound_ ? &*wound_ : nullptr);

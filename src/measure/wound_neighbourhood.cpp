@@ -1,6 +1,8 @@
 #include "suture/measure/wound_neighbourhood.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace suture {
 
@@ -18,11 +20,11 @@ bool lies_inside(const BoundingBox& box, const BoundingBox& region) {
 }  // namespace
 
 WoundNeighbourhood::WoundNeighbourhood(const Membrane& membrane, double margin)
-    : margin_(margin), tracker_(membrane), exposure_(membrane) {}
+    : margin_(margin), tracker_(membrane) {}
 
 void WoundNeighbourhood::look_at_all() {
   cells_.clear();
-  part_.reset();
+  forget_part();
 }
 
 void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state, const BoundingBox& region) {
@@ -35,7 +37,7 @@ void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& sta
   }
   if (chosen_ == cells_) return;
   cells_.swap(chosen_);
-  part_.reset();
+  forget_part();
 }
 
 const Tissue& WoundNeighbourhood::part(const Tissue& tissue) {
@@ -53,15 +55,31 @@ StateView WoundNeighbourhood::gather(const StateView& state) {
   if (cells_.empty()) return state;
   x_.resize(vertex_.size());
   y_.resize(vertex_.size());
-  for (std::size_t k = 0; k < vertex_.size(); ++k) x_[k] = state.x[vertex_[k]], y_[k] = state.y[vertex_[k]];
+  bool same = true;
+  const auto take = [&same](double& own, double value) {
+    same &= std::bit_cast<std::uint64_t>(own) == std::bit_cast<std::uint64_t>(value);
+    own = value;
+  };
+  for (std::size_t k = 0; k < vertex_.size(); ++k) take(x_[k], state.x[vertex_[k]]), take(y_[k], state.y[vertex_[k]]);
+  is_exposed_ = is_exposed_ && same;
   StateView view;
   view.x = x_, view.y = y_;
   return view;
 }
 
+/// Exposure is a pure function of the part and its positions, so it is measured only when one of them has changed since the
+/// tracker did: captures look at the wound where a grid time has just looked at the exposure.
+const Exposure& WoundNeighbourhood::expose(const Tissue& watched, const StateView& positions) {
+  if (!is_exposed_) tracker_.expose(watched, positions);
+  is_exposed_ = !cells_.empty();  // the positions of the whole tissue are not kept
+  return tracker_.boundary().exposure();
+}
+
 void WoundNeighbourhood::look(const Tissue& tissue, const StateView& state) {
   const Tissue& watched = part(tissue);
-  wound_ = tracker_.update(watched, gather(state));
+  const StateView positions = gather(state);
+  expose(watched, positions);
+  wound_ = tracker_.update_exposed(watched, positions);
   scatter(tissue, tracker_.boundary().exposure().exposed);
   if (wound_ && !cells_.empty())
     for (int& v : wound_->boundary) v = vertex_[v];
@@ -88,7 +106,7 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
 
 const std::vector<char>& WoundNeighbourhood::exposed(const Tissue& tissue, const StateView& state) {
   const Tissue& watched = part(tissue);
-  return scatter(tissue, exposure_(watched, gather(state)).exposed);
+  return scatter(tissue, expose(watched, gather(state)).exposed);
 }
 
 const std::vector<char>& WoundNeighbourhood::scatter(const Tissue& tissue, const std::vector<char>& found) {

@@ -63,6 +63,7 @@ class Closure {
   double last_area_ = 0.0;
   ClosureResult result_;
   double next_checkpoint_ = 0.0;
+  double next_kink_ = -1e300;  // after the integrator's time, once that has passed the last; the ring changes only at restarts
   bool done_ = false;
 };
 
@@ -140,6 +141,7 @@ void Closure::resume(TissueState at_event) {
   std::vector<int> source;
   if (at_event.purse_string.vertex != state_.purse_string.vertex) source = component_sources(state_, at_event);
   state_ = std::move(at_event);
+  next_kink_ = -1e300;
   ode_->replace_extra(state_.purse_string.size(), string_terms());
   integrator_->resume(state_.time, state_.values, source);
   ++restarts_;
@@ -206,8 +208,8 @@ void Closure::guard_progress(double event_time) {
 }
 
 void Closure::step() {
-  const std::optional<double> kink = next_kink_time(state_.purse_string, integrator_->time());
-  double limit = std::min(end_, kink.value_or(end_));
+  if (next_kink_ <= integrator_->time()) next_kink_ = next_kink_time(state_.purse_string, integrator_->time()).value_or(1e300);
+  double limit = std::min(end_, next_kink_);
   if (integrator_->stops_cheaply()) limit = std::min(limit, events_.next_known(integrator_->time()));
   integrator_->step(limit);
   double until = integrator_->time();
@@ -221,7 +223,7 @@ void Closure::step() {
     return;
   }
   take_samples(until);
-  if (kink && until >= *kink) log_.push_back({until, EventKind::kink, -1, -1});
+  if (until >= next_kink_) log_.push_back({until, EventKind::kink, -1, -1});
   publish_events();
   state_.time = until;
   std::copy(integrator_->state().begin(), integrator_->state().end(), state_.values.begin());

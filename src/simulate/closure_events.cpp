@@ -10,6 +10,20 @@ namespace {
 
 constexpr double storm_rate = 10.0;  // located events per unit of time beyond which locating costs more than it saves
 
+void add_point(const StateLayout& layout, int point, std::vector<int>& components) {
+  components.push_back(layout.x(point));
+  components.push_back(layout.y(point));
+}
+
+/// The components of y that hold both ends of every tether.
+void add_tethers(const TissueState& state, std::vector<int>& components) {
+  const StateLayout layout = state.layout();
+  for (int j = 0; j < layout.ring; ++j) {
+    add_point(layout, layout.ring_point(j), components);
+    add_point(layout, state.purse_string.vertex[j], components);
+  }
+}
+
 }  // namespace
 
 std::vector<int> string_boundary(const Tissue& tissue, const std::vector<int>& exposed, int crevice_depth) {
@@ -68,9 +82,11 @@ std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, con
   double low = integrator.time() - integrator.last_step(), high = integrator.time();
   if (parameters_.event_handling == EventHandling::each_step) return DueEvents{high, std::move(due), false};
   const double resolution = std::max(1e-6 * integrator.last_step(), 1e-12 * std::abs(high));
+  watched_.clear();
+  add_tethers(state, watched_);
   while (high - low > resolution) {
     const double middle = 0.5 * (low + high);
-    integrator.interpolate(middle, values_);
+    integrator.interpolate_some(middle, watched_, values_);
     std::vector<RingEvent> at_middle = due_events(state.purse_string, StateView(layout, values_), thresholds_);
     if (at_middle.empty()) {
       low = middle;
@@ -82,14 +98,28 @@ std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, con
   return DueEvents{high, std::move(due), false};
 }
 
+/// What a grid time reads of the state: the ends of the tethers, the positions of the cells around the wound.
+void ClosureEvents::watch_grid(const TissueState& state, bool tethers, const WoundNeighbourhood& edge) {
+  watched_.clear();
+  if (tethers) add_tethers(state, watched_);
+  if (!parameters_.capture) return;
+  const auto add_cell = [&](int cell) {
+    for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v) add_point(state.layout(), v, watched_);
+  };
+  for (const int cell : edge.cells()) add_cell(cell);
+  if (edge.cells().empty())
+    for (int cell = 0; cell < state.tissue.cell_count(); ++cell) add_cell(cell);
+}
+
 /// Events at the grid times inside the step: the last one is examined, and only if something is due there is the first
 /// grid time at which it is looked for.
 std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   const long last = static_cast<long>(std::floor((integrator.time() - start_) / interval_ + 1e-9));
   if (last <= last_grid_) return std::nullopt;
   const bool tethers = gauge_.on_grid(integrator.time());
+  watch_grid(state, tethers, edge);
   const auto due_at = [&](long k) -> std::optional<DueEvents> {
-    integrator.interpolate(std::min(grid_time(k), integrator.time()), values_);
+    integrator.interpolate_some(std::min(grid_time(k), integrator.time()), watched_, values_);
     const StateView view(state.layout(), values_);
     DueEvents due{grid_time(k), {}, false};
     if (tethers) due.tethers = due_events(state.purse_string, view, thresholds_);

@@ -62,6 +62,7 @@ class ClosureEvents {
  private:
   std::optional<DueEvents> locate(const Integrator& integrator, const TissueState& state);
   std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
+  void watch_grid(const TissueState& state, bool tethers, const WoundNeighbourhood& edge);
   std::optional<DueEvents> after_step(const Integrator& integrator, const TissueState& state);
   bool capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
   double grid_time(long k) const { return start_ + static_cast<double>(k) * interval_; }
@@ -73,7 +74,8 @@ class ClosureEvents {
   PublishedSearch search_;          // for CaptureSearch::published
   std::vector<char> seen_exposed_;  // when captures were last settled
   long last_grid_ = 0;              // index of the last grid time looked at
-  std::vector<double> values_;      // interpolated
+  std::vector<int> watched_;        // components of y that are looked at
+  std::vector<double> values_;      // y interpolated, in these components
 };
 
 }  // namespace suture

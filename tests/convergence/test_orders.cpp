@@ -135,6 +135,24 @@ TEST_CASE("interpolation between steps keeps the accuracy of the method", "[conv
   }
 }
 
+TEST_CASE("some components are interpolated as all are, bit for bit", "[convergence]") {
+  SmoothProblem problem;
+  const std::vector<int> some{7, 0, 3, static_cast<int>(problem.state.values.size()) - 1};
+  for (const Method method : {Method::euler, Method::rkc2, Method::automatic, Method::cvode}) {
+    const auto integrator = make_integrator(problem.ode, fixed(method, 1.0 / 256), 0.0, problem.state.values);
+    std::vector<double> all(problem.state.values.size()), watched(all.size());
+    for (int step = 0; step < 3; ++step) {
+      integrator->step(end);
+      for (const double back : {0.0, 0.3, 1.0}) {
+        const double t = integrator->time() - back * integrator->last_step();
+        integrator->interpolate(t, all);
+        integrator->interpolate_some(t, some, watched);
+        for (const int k : some) CHECK(watched[k] == all[k]);
+      }
+    }
+  }
+}
+
 TEST_CASE("CVODE's interpolant is as accurate as its steps, and meets both ends of a step", "[convergence]") {
   SmoothProblem problem;
   const double tolerance = 1e-7;

@@ -58,6 +58,8 @@ class Integrator {
   virtual int last_order() const = 0;
   /// y at t in [time() - last_step(), time()], to the order of the method.
   virtual void interpolate(double t, std::span<double> y) const = 0;
+  /// The same, bit for bit, for who needs only some components: the others may be left as they are.
+  virtual void interpolate_some(double t, std::span<const int> /*components*/, std::span<double> y) const { interpolate(t, y); }
   virtual Statistics statistics() const = 0;
   /// Goes on from (t, y) after an event inside the last step (time() - last_step() <= t <= time()) that changed the
   /// system's rate, its size or the state: component k of y carries on the past of the former component source[k]

@@ -39,6 +39,9 @@ class FreeBoundary {
 
   /// Throws NumericalError for a coordinate that is not finite or a segment without length.
   void evaluate(const Tissue& tissue, const StateView& state);
+  /// The two halves of evaluate(): after the first only exposure() is valid; the second is given the same tissue and state.
+  void expose(const Tissue& tissue, const StateView& state);
+  void trace(const Tissue& tissue, const StateView& state);
 
   const Membrane& membrane() const;
   /// Valid until the next evaluation, like everything below. Largest enclosed area first.

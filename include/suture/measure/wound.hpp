@@ -55,6 +55,9 @@ class WoundTracker {
   explicit WoundTracker(const Membrane& membrane, ExposureRule rule = ExposureRule::probe_disc);
   /// Measures this configuration and makes it the previous one. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
+  /// The two halves of update(), as those of FreeBoundary::evaluate.
+  const Exposure& expose(const Tissue& tissue, const StateView& state);
+  const std::optional<Wound>& update_exposed(const Tissue& tissue, const StateView& state);
 
   /// Makes this the previous configuration's wound.
   void follow(Wound wound) { wound_ = std::move(wound), status_ = WoundStatus::open; }

@@ -41,6 +41,7 @@ class PurseStringChain final : public EnergyTerm {
   Spring spring(int j, double t, const StateView& state) const;
 
   PurseString purse_string_;
+  std::vector<double> spring_stiffness_;  // of the quadratic law: constant
   SpringLaw law_;
   double stiffness_;
   int first_point_;

@@ -20,10 +20,12 @@ PurseStringChain::PurseStringChain(const Tissue& tissue, const PurseString& purs
     throw InputError(
         "purse_string.law = \"relative\" needs purse_string.minimum_rest_length > 0: "
         "the stiffness grows as 1/lambda0^2 while the rest lengths shrink to that floor");
-  for (int j = 0; j < purse_string.size(); ++j)
-    if (law_ == SpringLaw::quadratic && !(purse_string.spring[j].reference_length > 0.0))
-      throw InputError(fmt::format("purse-string spring {}: the reference length {} is not positive", j,
-                                   purse_string.spring[j].reference_length));
+  if (law_ != SpringLaw::quadratic) return;
+  for (int j = 0; j < purse_string.size(); ++j) {
+    const double length = purse_string.spring[j].reference_length;
+    if (!(length > 0.0)) throw InputError(fmt::format("purse-string spring {}: the reference length {} is not positive", j, length));
+    spring_stiffness_.push_back(stiffness_ / (length * length));
+  }
 }
 
 PurseStringChain::Spring PurseStringChain::spring(int j, double t, const StateView& state) const {
@@ -35,8 +37,7 @@ PurseStringChain::Spring PurseStringChain::spring(int j, double t, const StateVi
   s.length = std::sqrt(s.dx * s.dx + s.dy * s.dy);
   s.rest_length = purse_string_.rest_length(j, t);
   // Both laws are k/2 (l - lambda0)^2 over the square of a length: they differ in which one.
-  const double scale = law_ == SpringLaw::relative ? s.rest_length : purse_string_.spring[j].reference_length;
-  s.stiffness = stiffness_ / (scale * scale);
+  s.stiffness = law_ == SpringLaw::relative ? stiffness_ / (s.rest_length * s.rest_length) : spring_stiffness_[j];
   return s;
 }
 

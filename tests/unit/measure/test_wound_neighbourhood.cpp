@@ -61,6 +61,22 @@ TEST_CASE("a wound that moves is followed from the cells around it", "[unit]") {
   CHECK_FALSE(followers.part.cells().empty());
 }
 
+TEST_CASE("an exposure that has been measured serves no other state", "[unit]") {
+  TissueState state = wide_honeycomb();
+  Followers followers;
+  followers.see(state);
+  followers.see(state);
+  const std::vector<char> before = followers.part.exposed(state.tissue, state.view());
+  for (int seed = 1; seed < 4; ++seed) {
+    followers.part.exposed(state.tissue, state.view());
+    shake(state, 0.02, seed);  // between the look at the exposure and that at the wound
+    followers.see(state);
+    const Exposure whole = exposed_vertices(state.tissue, state.view(), default_membrane());
+    for (const int v : followers.part.wound()->boundary) CHECK(whole.exposed[v]);
+  }
+  CHECK(followers.part.exposed(state.tissue, state.view()) != before);
+}
+
 TEST_CASE("a cell that jumps into the wound from afar is seen", "[unit]") {
   TissueState state = wide_honeycomb();
   Followers followers;
