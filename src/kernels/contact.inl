@@ -110,22 +110,3 @@ void contact_diagonal(const ContactFactor* factors, std::size_t count, double* b
     add(f.q + 1, f.t * f.t);
   }
 }
-
-void near_segments(const Shell& s, int cell, double px, double py, double reach2, unsigned long long* words,
-                   double* distance2) {
-  const int b = s.base[cell] + 1, n = s.count[cell];
-  for (int k = 0; k < n; k += lanes) {
-    const Double8 dx = px - load(s.x + b + k), dy = py - load(s.y + b + k);
-    const Double8 ex = load(s.ex + b + k), ey = load(s.ey + b + k);
-    const Double8 inverse = load(s.inverse_length + b + k);
-    Double8 t = (dx * ex + dy * ey) * (inverse * inverse);
-    t = select(less(0.0, t), select(less(t, 1.0), t, broadcast(1.0)), Double8{});
-    const Double8 rx = dx - t * ex, ry = dy - t * ey;
-    const Double8 d2 = rx * rx + ry * ry;
-    store(distance2 + k, d2);
-    unsigned long long mask = bits(less(d2, reach2));
-    if (n - k < lanes) mask &= (1ull << (n - k)) - 1;
-    if (k % 64 == 0) words[k / 64] = 0;
-    words[k / 64] |= mask << (k % 64);
-  }
-}

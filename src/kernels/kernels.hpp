@@ -76,6 +76,7 @@ struct ContactScalars {
 
 /// Segments of one window at most; with their last end point they are the four points that a lane looks at.
 constexpr int window_segments = 3;
+constexpr int window_bands = 5;
 constexpr int window_terms = 2 * window_segments + 1;  ///< of its segments and points
 /// Slots after a cell's vertices that the contact gradient adds to, if only zero to the last.
 constexpr int contact_halo = window_segments + 1;
@@ -98,6 +99,54 @@ struct WindowGroup {
 
 struct SelfPair {
   int i, j;
+};
+
+/// Boxes around eight consecutive segments each, widened by the reach. Eight more than there are can be read.
+struct SegmentBoxes {
+  double *x0 = nullptr, *y0 = nullptr, *x1 = nullptr, *y1 = nullptr;
+};
+
+/// Those near a cell, by neighbour and segment.
+struct NearBoxes {
+  struct Of {
+    int cell, segment;      ///< number of the neighbour; first of the segments
+    int first_slot, count;  ///< of the neighbour
+    bool follows;           ///< the segments follow those of the box before
+  };
+  SegmentBoxes boxes;
+  Of* of = nullptr;
+  int count = 0;
+};
+
+/// A vertex in boxes of one neighbour: the first of them, and the place of its bits and distances.
+struct NearGroup {
+  int slot, box, place;
+};
+
+/// Consecutive segments near a vertex, and what cutting them into windows needs.
+struct NearRun {
+  int slot, q;                  ///< of the vertex and the first segment
+  int at, length;               ///< distance2[at] belongs to the first segment
+  int before_end, count, cell;  ///< segments of the neighbour from the first one on and in all; its number
+  int nearest;                  ///< segment of the run
+  unsigned nearer;              ///< how near its windows are (near_windows.inl)
+  int windows;                  ///< that it is cut into
+};
+
+/// What near_windows looks for, and room to work in. A pair is a vertex and a box.
+struct NearQuery {
+  static constexpr int vertices = 32;  ///< at most at once
+  Shell shell;
+  NearBoxes near;
+  double reach2 = 0;                                  ///< of the list, squared
+  double edge2[window_bands - 1]{};                   ///< squared distances at which bands 1, 2, ... begin
+  std::uint64_t *rows = nullptr, *columns = nullptr;  ///< near.count / 8, rounded up
+  int* found = nullptr;                               ///< near.count + 1
+  NearGroup* groups = nullptr;                        ///< pairs + 1
+  unsigned char* bits = nullptr;                      ///< 2 pairs + 9
+  int *segments = nullptr, *numbers = nullptr;        ///< 2 pairs + 1; segments of a cell
+  double* distance2 = nullptr;                        ///< 24 pairs + 16
+  NearRun* runs = nullptr;                            ///< 4 pairs + 1
 };
 
 /// One repulsive term of the contact energy, linearised: v.H v = (n.(w v))^2 with w = (1, -(1-t), -t) on (p, q, q + 1) and n
@@ -166,9 +215,15 @@ struct Table {
   void (*contact_diagonal)(const ContactFactor*, std::size_t, double* blocks);
   /// Overwrites the batch by I + gamma H of one cell per lane, without the corners that close the ring.
   void (*cell_rows8)(const CellRows&, double gamma, const CyclicBatch&);
-  /// Bit mask of the segments base+1 .. base+n of one cell within `reach` of (px, py), 64 segments per word, and the squared
-  /// distance of each (room for n, rounded up to eight).
-  void (*near_segments)(const Shell&, int cell, double px, double py, double reach2, unsigned long long* words, double* distance2);
+  /// Boxes of a cell's segments, widened by `margin`, from number `first` on; box: the whole cell's x0, y0, x1, y1, not widened.
+  void (*segment_boxes)(const Shell&, int cell, double margin, const SegmentBoxes&, int first, double* box);
+  /// Appends to the near boxes, of a cell's `box`, those of cell `other` (from number `first` on); `number` is the neighbour's.
+  void (*near_boxes)(const Shell&, const double* box, const SegmentBoxes&, int first, int other, int number, NearBoxes&);
+  /// Windows of `vertices` vertices from `slot` on, by vertex and cell (room: 8 pairs + 3), and their runs; returns how many runs.
+  int (*near_windows)(const NearQuery&, int slot, int vertices, Window*);
+  /// Of a cell's vertices first .. first + 7, `first` a multiple of eight, and later vertices that are not next to them: byte i of
+  /// word k has a bit for vertex first + i and each of 8 k .. 8 k + 7 that is within reach of it. False if there is none.
+  bool (*near_pairs)(const Shell&, int cell, int first, const SegmentBoxes&, int first_box, double reach2, std::uint64_t* words);
   /// Rounds eight factored cells into lanes 8 half .. 8 half + 7.
   void (*narrow_cells)(const CyclicBatch&, const double* area_gradient, const double* area_solution, int half, const CellFactors&);
   /// z = P^-1 r on the cells' points; rhs: room for 32 floats per row, finite, zero in rows before a cell's first.

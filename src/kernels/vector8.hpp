@@ -229,6 +229,7 @@ SUTURE_INLINE Mask8 first_lanes(int n) {
 }
 
 SUTURE_INLINE Double8 maximum(Double8 a, Double8 b) { return select(less(b, a), a, b); }
+SUTURE_INLINE Double8 minimum(Double8 a, Double8 b) { return select(less(a, b), a, b); }
 
 /// Sum of all lanes.
 SUTURE_INLINE double sum(Double8 a) {

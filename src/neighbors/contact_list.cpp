@@ -7,8 +7,18 @@
 
 namespace suture {
 
+namespace {
+
+template <class T>
+T* grow(std::vector<T>& room, std::size_t size) {
+  if (room.size() < size) room.resize(size);
+  return room.data();
+}
+
+}  // namespace
+
 void ContactList::build(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers) {
-  find_boxes(shell, workers);
+  find_boxes(shell, kernel, workers);
   fill_buckets();
   schedule_.divide(shell.cells, cells_per_block_);
   lists_.resize(schedule_.lists());
@@ -29,22 +39,19 @@ void ContactList::age(double moved) {
   active_bands_ = std::max(active_bands_, wanted);
 }
 
-int ContactList::band_of(double distance2) const {
-  int band = 0;
-  for (double edge = reach_; band < bands - 1 && distance2 >= edge * edge; edge += skin_ / (bands - 1)) ++band;
-  return band;
-}
-
-void ContactList::find_boxes(const kernels::Shell& shell, WorkerPool& workers) {
+void ContactList::find_boxes(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers) {
+  const double margin = std::max(reach_, self_reach_) + skin_;
   boxes_.resize(shell.cells);
+  first_segment_box_.resize(shell.cells + 1);
+  for (int c = 0; c < shell.cells; ++c) first_segment_box_[c + 1] = first_segment_box_[c] + (shell.count[c] + 7) / 8;
+  const std::size_t room = first_segment_box_.back() + 8;  // they are loaded eight at a time
+  segment_box_room_.resize(4 * room);
+  double* const room_begin = segment_box_room_.data();
+  segment_boxes_ = {room_begin, room_begin + room, room_begin + 2 * room, room_begin + 3 * room};
   const Ranges ranges{boxes_.size(), 256};
   workers.for_each(ranges.count(), [&](int k) {
-    for (std::size_t c = ranges[k].begin; c < ranges[k].end; ++c) {
-      const double *x = shell.x + shell.base[c] + 1, *y = shell.y + shell.base[c] + 1;
-      const auto [x0, x1] = std::minmax_element(x, x + shell.count[c]);
-      const auto [y0, y1] = std::minmax_element(y, y + shell.count[c]);
-      boxes_[c] = {*x0, *y0, *x1, *y1};
-    }
+    for (std::size_t c = ranges[k].begin; c < ranges[k].end; ++c)
+      kernel.segment_boxes(shell, static_cast<int>(c), margin, segment_boxes_, first_segment_box_[c], &boxes_[c].x0);
   });
 }
 
@@ -83,9 +90,8 @@ void ContactList::fill_part(int part, const kernels::Shell& shell, const kernels
          k < schedule_.cells_of(static_cast<int>(block)).end; ++k) {
       const auto c = static_cast<int>(k);
       find_neighbors(c, scratch.neighbors);
-      for (int slot = shell.base[c] + 1; slot <= shell.base[c] + shell.count[c]; ++slot)
-        add_windows(scratch, shell, kernel, slot);
-      if (self_reach_ > 0.0) add_self_pairs(lists_[block], shell, c);
+      add_windows(scratch, shell, kernel, c);
+      if (self_reach_ > 0.0) add_self_pairs(scratch, lists_[block], shell, kernel, c);
     }
 }
 
@@ -108,68 +114,67 @@ void ContactList::find_neighbors(int cell, std::vector<Neighbor>& neighbors) con
             [](const Neighbor& one, const Neighbor& two) { return one.cell < two.cell; });
 }
 
-void ContactList::add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int slot) {
-  const double margin = reach_ + skin_, px = shell.x[slot], py = shell.y[slot];
-  for (const auto& [other, list] : scratch.neighbors) {
-    const Box& b = boxes_[other];
-    if (px < b.x0 - margin || px > b.x1 + margin || py < b.y0 - margin || py > b.y1 + margin) continue;
-    const int n = shell.count[other];
-    scratch.words.resize(std::max<std::size_t>(scratch.words.size(), (n + 63) / 64));
-    scratch.distance2.resize(std::max<std::size_t>(scratch.distance2.size(), (n + 7) / 8 * 8));
-    kernel.near_segments(shell, other, px, py, margin * margin, scratch.words.data(), scratch.distance2.data());
-    cut_windows(scratch, slot, shell.base[other] + 1, n, lists_[list].windows);
+/// Scratch has room for what is found.
+kernels::NearQuery ContactList::query_around(int cell, const kernels::Shell& shell, const kernels::Table& kernel, Scratch& scratch) const {
+  std::size_t most = 0, boxes = 0;
+  for (const Neighbor& neighbor : scratch.neighbors) {
+    most = std::max<std::size_t>(most, shell.count[neighbor.cell]);
+    boxes += (shell.count[neighbor.cell] + 7) / 8;
+  }
+  const double margin = reach_ + skin_;
+  kernels::NearQuery query{.shell = shell, .near = {}, .reach2 = margin * margin};
+  double edge = reach_;
+  for (double& edge2 : query.edge2) edge2 = edge * edge, edge += skin_ / (bands - 1);
+  double* const room = grow(scratch.box_room, 4 * (boxes + 8));
+  query.near.boxes = {room, room + boxes + 8, room + 2 * (boxes + 8), room + 3 * (boxes + 8)};
+  query.near.of = grow(scratch.box_of, boxes);
+  for (std::size_t k = 0; k < scratch.neighbors.size(); ++k) {
+    const int other = scratch.neighbors[k].cell;
+    kernel.near_boxes(shell, &boxes_[cell].x0, segment_boxes_, first_segment_box_[other], other, static_cast<int>(k), query.near);
+  }
+  const std::size_t pairs = static_cast<std::size_t>(query.near.count) * kernels::NearQuery::vertices;
+  query.rows = grow(scratch.rows, (query.near.count + 7) / 8);
+  query.columns = grow(scratch.columns, (query.near.count + 7) / 8);
+  query.found = grow(scratch.found, query.near.count + 1);
+  query.bits = grow(scratch.bits, 2 * pairs + 9);
+  query.groups = grow(scratch.groups, pairs + 1);
+  query.segments = grow(scratch.segments, 2 * pairs + 1);
+  query.numbers = grow(scratch.numbers, most);
+  query.distance2 = grow(scratch.distance2, 24 * pairs + 16);
+  query.runs = grow(scratch.runs, 4 * pairs + 1);
+  grow(scratch.windows, 8 * pairs + 3);
+  return query;
+}
+
+void ContactList::add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int cell) {
+  const kernels::NearQuery query = query_around(cell, shell, kernel, scratch);
+  const int first = shell.base[cell] + 1, end = first + shell.count[cell];
+  for (int slot = first; slot < end; slot += query.vertices) {
+    const int runs = kernel.near_windows(query, slot, std::min(end - slot, query.vertices), scratch.windows.data());
+    const kernels::Window* window = scratch.windows.data();
+    for (int k = 0; k < runs;) {
+      const int list = scratch.neighbors[query.runs[k].cell].list;
+      const kernels::Window* const begin = window;
+      for (; k < runs && scratch.neighbors[query.runs[k].cell].list == list; ++k) window += query.runs[k].windows;
+      lists_[list].windows.insert(lists_[list].windows.end(), begin, window);
+    }
   }
 }
 
-/// Windows over the near segments of one cell, from the bits of words. Numbering is cyclic: a run that goes over the end
-/// is taken up at its beginning, so that it is not cut there.
-void ContactList::cut_windows(Scratch& scratch, int slot, int first_slot, int n,
-                              std::vector<kernels::Window>& windows) const {
-  std::vector<int>& near = scratch.near;
-  near.clear();
-  for (int w = 0; 64 * w < n; ++w)
-    for (unsigned long long word = scratch.words[w]; word != 0; word &= word - 1)
-      near.push_back(64 * w + __builtin_ctzll(word));
-  const int count = static_cast<int>(near.size());
-  if (count == 0) return;
-  if (near.front() == 0 && near.back() == n - 1 && count < n) {
-    int lead = count - 1;  // where the run over the end begins
-    while (near[lead - 1] == near[lead] - 1) --lead;
-    std::rotate(near.begin(), near.begin() + lead, near.end());
-  }
-  for (int begin = 0, end = 0; begin < count; begin = end) {
-    for (end = begin + 1; end < count && near[end] == (near[end - 1] + 1) % n;) ++end;
-    cut_run({near.data() + begin, near.data() + end}, scratch, slot, first_slot, windows);
-  }
-}
-
-/// Windows over consecutive segments. The nearest is the middle of one: what is in reach lies beside it, and at a cut in
-/// reach the windows on either side would have a term each that cancel.
-void ContactList::cut_run(std::span<const int> run, const Scratch& scratch, int slot, int first_slot,
-                          std::vector<kernels::Window>& windows) const {
-  constexpr int most = kernels::window_segments;
-  const std::vector<double>& distance2 = scratch.distance2;
-  const auto nearer = [&](int one, int two) { return distance2[one] < distance2[two]; };
-  const auto nearest = static_cast<int>(std::min_element(run.begin(), run.end(), nearer) - run.begin());
-  const auto length = static_cast<int>(run.size());
-  const int phase = (nearest - most / 2 + most) % most;
-  for (int k = phase == 0 ? 0 : phase - most; k < length; k += most) {
-    const int begin = std::max(k, 0), end = std::min(k + most, length);
-    const int closest = *std::min_element(run.begin() + begin, run.begin() + end, nearer);
-    windows.push_back({slot, first_slot + run[begin], static_cast<std::int16_t>(end - begin),
-                       static_cast<std::int16_t>(band_of(distance2[closest]))});
-  }
-}
-
-void ContactList::add_self_pairs(Entries& entries, const kernels::Shell& shell, int cell) const {
+/// The kernel looks a little farther, so that the pairs do not depend on how it rounds.
+void ContactList::add_self_pairs(Scratch& scratch, Entries& entries, const kernels::Shell& shell, const kernels::Table& kernel, int cell) const {
   const int b = shell.base[cell] + 1, n = shell.count[cell];
   const double reach = self_reach_ + skin_;
-  for (int i = 0; i < n; ++i)
-    for (int j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;
-      const double dx = shell.x[b + i] - shell.x[b + j], dy = shell.y[b + i] - shell.y[b + j];
-      if (dx * dx + dy * dy < reach * reach) entries.self_pairs.push_back({b + i, b + j});
-    }
+  grow(scratch.rows, (n + 7) / 8);
+  const auto add = [&](int i, int j) {
+    const double dx = shell.x[b + i] - shell.x[b + j], dy = shell.y[b + i] - shell.y[b + j];
+    if (dx * dx + dy * dy < reach * reach) entries.self_pairs.push_back({b + i, b + j});
+  };
+  for (int first = 0; first < n; first += 8)
+    if (kernel.near_pairs(shell, cell, first, segment_boxes_, first_segment_box_[cell], 1.000001 * reach * reach, scratch.rows.data()))
+      for (int i = 0; i < 8; ++i)
+        for (int k = first / 8; 8 * k < n; ++k)
+          for (std::uint64_t left = scratch.rows[k] >> 8 * i & 0xffu; left != 0; left &= left - 1) add(first + i, 8 * k + __builtin_ctzll(left));
 }
 
 }  // namespace suture

@@ -9,7 +9,6 @@
 // The list of a large tissue is several (contact_schedule.hpp).
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "kernels/kernels.hpp"
@@ -53,23 +52,25 @@ class ContactList {
   struct Neighbor {
     int cell, list;
   };
-  /// What building a part's lists needs: neighbours of one cell; near segments of one of them, as bits and as numbers; squared
-  /// distances of all.
+  /// Room for building a part's lists: of one cell, its neighbours and what kernels::NearQuery works with; windows of some vertices.
   struct Scratch {
     std::vector<Neighbor> neighbors;
-    std::vector<int> near;
-    std::vector<unsigned long long> words;
-    std::vector<double> distance2;
+    std::vector<double> box_room, distance2;
+    std::vector<kernels::NearBoxes::Of> box_of;
+    std::vector<std::uint64_t> rows, columns;
+    std::vector<kernels::NearGroup> groups;
+    std::vector<unsigned char> bits;
+    std::vector<int> found, segments, numbers;
+    std::vector<kernels::NearRun> runs;
+    std::vector<kernels::Window> windows;
   };
-  void find_boxes(const kernels::Shell& shell, WorkerPool& workers);
+  void find_boxes(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers);
   void fill_buckets();
   void fill_part(int part, const kernels::Shell& shell, const kernels::Table& kernel);
   void find_neighbors(int cell, std::vector<Neighbor>& neighbors) const;
-  void add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int slot);
-  void cut_windows(Scratch& scratch, int slot, int first_slot, int n, std::vector<kernels::Window>& windows) const;
-  void cut_run(std::span<const int> run, const Scratch& scratch, int slot, int first_slot, std::vector<kernels::Window>& windows) const;
-  int band_of(double distance2) const;
-  void add_self_pairs(Entries& entries, const kernels::Shell& shell, int cell) const;
+  kernels::NearQuery query_around(int cell, const kernels::Shell& shell, const kernels::Table& kernel, Scratch& scratch) const;
+  void add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int cell);
+  void add_self_pairs(Scratch& scratch, Entries& entries, const kernels::Shell& shell, const kernels::Table& kernel, int cell) const;
 
   double reach_ = 0.0, self_reach_ = 0.0, skin_ = 0.0;
   int cells_per_block_ = 0, active_bands_ = 0;
@@ -77,6 +78,9 @@ class ContactList {
   std::vector<Entries> lists_;
   std::vector<Scratch> scratch_;  // per part
   std::vector<Box> boxes_;
+  std::vector<int> first_segment_box_;
+  std::vector<double> segment_box_room_;
+  kernels::SegmentBoxes segment_boxes_;
   // Cells sorted by the grid bucket of their box corner, nx_ by ny_ buckets.
   int nx_ = 0, ny_ = 0;
   std::vector<int> bucket_start_, bucket_cells_, bucket_of_, cursor_;

@@ -1,6 +1,7 @@
 // The windows of one list in the layout the contact kernels work on, nearer bands first.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -12,7 +13,7 @@ namespace suture {
 
 class WindowGroups {
  public:
-  static constexpr int bands = 5;
+  static constexpr int bands = kernels::window_bands;
 
   /// Within a band windows keep their order.
   void assign(std::span<const kernels::Window> windows) {
@@ -23,7 +24,8 @@ class WindowGroups {
       place[band] = end_[band - 1];
       end_[band] += end_[band - 1];
     }
-    groups_.assign((windows.size() + size - 1) / size, {});
+    groups_.resize((windows.size() + size - 1) / size);
+    for (kernels::WindowGroup& group : groups_) std::fill_n(group.segments, kernels::window_segments, 0);
     for (const kernels::Window& window : windows) put(place[window.band]++, window);
     for (std::size_t k = windows.size(); k < groups_.size() * size; ++k) groups_[k / size].slots[k % size] = groups_[k / size].slots[0];
   }
