@@ -116,7 +116,7 @@ void measure_rate(const Config& config, const TissueState& state, int repeats, R
 
 void measure_rates(const Settings& settings, Report& report) {
   const Packed patch = packed_tissue(settings.smoke ? 6 : 45, settings.smoke ? 12 : 30, true);
-  std::vector<int> cells = settings.smoke ? std::vector{12} : std::vector{45, 450, 9990};
+  std::vector<int> cells = settings.smoke ? std::vector{12} : std::vector{45, 450, 3330, 9990};
   if (settings.long_runs) cells.push_back(99990);
   for (const int count : cells)
     measure_rate(patch.config, tiled(patch.state, count / patch.state.tissue.cell_count(), *patch.config.contact.distance), settings.repeats, report);

@@ -37,17 +37,25 @@ struct Shell {
   double* area = nullptr;               ///< per cell
 };
 
+/// Rates of the rest lengths, without padding, from the first vertex of the shell's first cell on; material per cell.
+struct RestLengthFlow {
+  const double *inverse_tau = nullptr, *memory = nullptr, *reference = nullptr;
+  double* rate = nullptr;  ///< null: not wanted
+};
+
+/// Room for what a few cells' segments are, instead of the shell's arrays, which a large tissue would write to memory in vain.
+struct SegmentRoom {
+  static constexpr int arrays = 6, cells = 4;
+  double* data = nullptr;  ///< null: into the shell's arrays
+  std::size_t stride = 0;  ///< from one array to the next: at least 8 more than the slots of `cells` cells
+};
+
 /// What a gradient is evaluated at, without padding, from the first vertex of the shell's first cell on.
 struct ShellInput {
   const double *x = nullptr, *y = nullptr;
   const double* rest_length = nullptr;  ///< null: rest_a + rest_b l as they are in the shell
-};
-
-/// Rates of the rest lengths, without padding, from the first vertex of the shell's first cell on; material per cell.
-struct RestLengthFlow {
-  const double *inverse_tau = nullptr, *memory = nullptr;
-  const double *rest_length = nullptr, *reference = nullptr;
-  double* rate = nullptr;
+  RestLengthFlow flow{};
+  SegmentRoom room{};
 };
 
 /// Rest lengths a + b l at (x, y), without padding, from the first vertex of the shell's first cell on.
@@ -196,15 +204,16 @@ struct CellLanes {
 
 struct Table {
   const char* name;
-  /// Fills the slots; lengths, angles and dU/dr of the shell. False if an area, a length or a rest length is not positive.
-  bool (*shell_gradient)(const Shell&, const ShellInput&);
+  /// Fills the slots; segments and angles (which go to in.room if there is one), dU/dr of the shell and, where wanted, the rates of
+  /// the rest lengths ([P] Eq. 5 and 10). False if an area, a length or a rest length is not positive.
+  bool (*shell_gradient)(const Shell&, const ShellInput& in);
+  void (*shell_segments)(const Shell&);  ///< segments and angles at the positions in the slots
   void (*shell_linearise)(const Shell&, const ShellHessian&);
   /// (ox, oy) = H_shell (vx, vy), overwritten including the halo. vx, vy must be padded. Overwrites gx, gy.
   void (*shell_product)(const Shell&, const ShellHessian&);
   /// What contacts added to repeated slots goes to the vertices, then all without padding to `values`.
   void (*fold_cells)(const Shell&, double* padded, double* values);
   void (*fold_gradient)(const Shell&, double* gx, double* gy);  ///< the same for dU/dr
-  void (*rest_length_rate)(const Shell&, const RestLengthFlow&);  ///< [P] Eq. 5 and 10
   void (*rest_lengths)(const Shell&, const RestLengthLine&);
   void (*contact_gradient)(const Shell&, const ContactScalars&, const WindowGroup*, std::size_t windows, const SelfPair*, std::size_t);
   /// Appends repulsive terms; returns their number. `factors` must have room for window_terms per window and 1 per pair.

@@ -24,7 +24,7 @@ using namespace suture::kernels;
 
 namespace suture::kernels {
 
-const Table baseline{"baseline",           shell_gradient,    shell_linearise, shell_product, fold_cells, fold_gradient, rest_length_rate, rest_lengths,
+const Table baseline{"baseline",           shell_gradient,    shell_segments,  shell_linearise, shell_product, fold_cells, fold_gradient, rest_lengths,
                     contact_gradient, contact_linearise, contact_product, contact_diagonal, cell_rows8, segment_boxes, near_boxes, near_windows, near_pairs,
                     narrow_cells,     apply_cells,
                     cyclic_factor1,   cyclic_factor8,    cyclic_solve1,   cyclic_solve8,

@@ -125,14 +125,39 @@ inline bool segment_forces(const Shell& s, int cell, bool rest_lengths_held) {
   return bits(~positive) == 0;
 }
 
-bool shell_gradient(const Shell& s, const ShellInput& in) {
+inline void rest_length_rate(const Shell& s, int cell, const double* rest, const RestLengthFlow& flow, std::size_t vertex) {
+  const double *length = s.length + s.base[cell] + 1, *reference = flow.reference + vertex;
+  double* rate = flow.rate + vertex;
+  const double inverse_tau = flow.inverse_tau[cell], memory = flow.memory[cell];
+  for_vectors(
+      s.count[cell],
+      [&](int k) {
+        const Double8 l = load(length + k);
+        store(rate + k, -inverse_tau * ((load(rest + k) - l) + memory * (l - load(reference + k))));
+      },
+      [&](int k) { rate[k] = -inverse_tau * ((rest[k] - length[k]) + memory * (length[k] - reference[k])); });
+}
+
+/// The shell with its segments in `room`, which begins with the slots of cell `first`.
+inline Shell in_room(Shell s, const ShellInput& in, int first) {
+  if (in.room.data == nullptr) return s;
+  double* array = in.room.data + 7 - s.base[first];  // slot 1 is aligned here, too
+  for (double** own : {&s.ex, &s.ey, &s.length, &s.inverse_length, &s.theta}) {
+    *own = array;
+    array += in.room.stride;
+  }
+  if (in.rest_length != nullptr) s.rest_a = array;
+  return s;
+}
+
+bool shell_gradient(const Shell& all, const ShellInput& in) {
   // Every pass reads its predecessor's results at shifted addresses, which a store just made would hold up. A few cells at
   // a time, pass after pass, leave time for it, and stay in the first-level cache.
-  constexpr int together = 4;
   bool healthy = true;
-  std::size_t vertex = 0;
-  for (int first = 0; first < s.cells; first += together) {
-    const int end = std::min(first + together, s.cells);
+  std::size_t vertex = 0, flowing = 0;
+  for (int first = 0; first < all.cells; first += SegmentRoom::cells) {
+    const int end = std::min(first + SegmentRoom::cells, all.cells);
+    const Shell s = in_room(all, in, first);
     for (int cell = first; cell < end; ++cell) {
       const int b = s.base[cell], n = s.count[cell];
       fill_slots(in.x + vertex, s.x + b, n);
@@ -143,8 +168,17 @@ bool shell_gradient(const Shell& s, const ShellInput& in) {
     for (int cell = first; cell < end; ++cell) segments_and_area(s, cell);
     for (int cell = first; cell < end; ++cell) turning_angles(s, cell);
     for (int cell = first; cell < end; ++cell) healthy &= segment_forces(s, cell, in.rest_length != nullptr) & (s.area[cell] > 0.0);
+    if (in.flow.rate == nullptr) continue;
+    for (int cell = first; cell < end; flowing += s.count[cell++]) rest_length_rate(s, cell, in.rest_length + flowing, in.flow, flowing);
   }
   return healthy;
+}
+
+void shell_segments(const Shell& s) {
+  for (int cell = 0; cell < s.cells; ++cell) {
+    segments_and_area(s, cell);
+    turning_angles(s, cell);
+  }
 }
 
 /// d2U/de_i2 = K m m^T + (T/l) n n^T - (M/l^2)(m n^T + n m^T) + (bending: k_b along d(theta)), with m = e/l and
@@ -152,8 +186,6 @@ bool shell_gradient(const Shell& s, const ShellInput& in) {
 void shell_linearise(const Shell& s, const ShellHessian& h) {
   for (int cell = 0; cell < s.cells; ++cell) {
     const int b = s.base[cell] + 1, n = s.count[cell];
-    for (double* a : {s.ex + b, s.ey + b, s.inverse_length + b})  // linearising contacts reads these beyond the last vertex
-      for (int k = 0; k < contact_halo; ++k) a[n + k] = a[k];
     const Double8 kb = broadcast(s.bending_stiffness[cell]);
     for (int j = b; j < b + n; j += lanes) {
       const Double8 inverse = load(s.inverse_length + j);
@@ -254,24 +286,6 @@ void fold_gradient(const Shell& s, double* gx, double* gy) {
         },
         [&](int k) { gx[k] = g[2 * k], gy[k] = g[2 * k + 1]; });
     gx += n, gy += n;
-  }
-}
-
-void rest_length_rate(const Shell& s, const RestLengthFlow& f) {
-  std::size_t vertex = 0;
-  for (int cell = 0; cell < s.cells; ++cell) {
-    const int n = s.count[cell];
-    const double *length = s.length + s.base[cell] + 1, *rest = f.rest_length + vertex, *reference = f.reference + vertex;
-    double* rate = f.rate + vertex;
-    const double inverse_tau = f.inverse_tau[cell], memory = f.memory[cell];
-    for_vectors(
-        n,
-        [&](int k) {
-          const Double8 l = load(length + k);
-          store(rate + k, -inverse_tau * ((load(rest + k) - l) + memory * (l - load(reference + k))));
-        },
-        [&](int k) { rate[k] = -inverse_tau * ((rest[k] - length[k]) + memory * (length[k] - reference[k])); });
-    vertex += n;
   }
 }
 

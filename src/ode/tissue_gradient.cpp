@@ -29,6 +29,14 @@ kernels::ContactScalars contact_scalars(const ContactParameters& p) {
   return c;
 }
 
+/// The same memory for every tissue a thread works on; nobody relies on what is in it.
+double* room_of_thread(std::size_t doubles) {
+  thread_local AlignedBuffer room;
+  thread_local std::size_t size = 0;
+  if (size < doubles) room = AlignedBuffer(size = doubles);
+  return room.data();
+}
+
 }  // namespace
 
 TissueGradient::TissueGradient(const Tissue& tissue_in, int ring, TissueOdeOptions options_in,
@@ -44,14 +52,23 @@ TissueGradient::TissueGradient(const Tissue& tissue_in, int ring, TissueOdeOptio
       list(std::sqrt(contact.cutoff2), std::sqrt(contact.self2), options.skin, divided(tissue) ? cells_per_block : 0),
       built_x_(tissue.vertex_count()),
       built_y_(tissue.vertex_count()),
-      moved2_(padded.blocks()) {}
+      moved2_(padded.blocks()) {
+  int most = 0;
+  for (int c = 0; c < tissue.cell_count(); ++c) most = std::max(most, tissue.vertex_count(c));
+  room_stride_ = kernels::SegmentRoom::cells * static_cast<std::size_t>((most + kernels::halo + 7) / 8 * 8) + 8;
+}
 
-void TissueGradient::hold_rest_lengths(std::span<const double> rest_length) { held_ = rest_length.data(); }
+void TissueGradient::hold_rest_lengths(std::span<const double> rest_length, const kernels::RestLengthFlow& flow) {
+  held_ = rest_length.data();
+  flow_ = flow;
+}
 
 void TissueGradient::let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block) {
   padded.unpack(rest_a, padded.shell.rest_a, block);
   padded.unpack(rest_b, padded.shell.rest_b, block);
-  if (block == 0) held_ = nullptr;
+  if (block != 0) return;
+  held_ = nullptr;
+  flow_ = {};
 }
 
 Range TissueGradient::points_of(int block) const {
@@ -59,9 +76,12 @@ Range TissueGradient::points_of(int block) const {
   return {vertices.begin, block + 1 < padded.blocks() ? vertices.end : static_cast<std::size_t>(layout.points())};
 }
 
-bool TissueGradient::add_shell(const StateView& state, int block) {
-  const std::size_t first = padded.vertices_of(block).begin;
-  return kernel.shell_gradient(padded.shell_of(block), {state.x.data() + first, state.y.data() + first, held_ != nullptr ? held_ + first : nullptr});
+bool TissueGradient::add_shell(const StateView& state, int block, bool keep) {
+  const std::size_t first = padded.vertices_of(block).begin, cell = padded.cells_of(block).begin;
+  kernels::ShellInput in{state.x.data() + first, state.y.data() + first, held_ != nullptr ? held_ + first : nullptr};
+  if (flow_.rate != nullptr) in.flow = {flow_.inverse_tau + cell, flow_.memory + cell, flow_.reference + first, flow_.rate + first};
+  if (!keep) in.room = {room_of_thread(kernels::SegmentRoom::arrays * room_stride_), room_stride_};
+  return kernel.shell_gradient(padded.shell_of(block), in);
 }
 
 /// How far somebody is from where the list was built.
@@ -77,9 +97,11 @@ double TissueGradient::largest_move(const StateView& state) {
 bool TissueGradient::add_cells(const StateView& state) {
   const double moved = largest_move(state);
   const bool worn = rebuilds == 0 || !(2.0 * moved <= options.skin);
+  // A new list reads segments; so does the linearisation of an implicit step, which makes those of a large tissue anew.
+  const bool keep = worn || (held_ == nullptr && padded.blocks() == 1);
   std::atomic<bool> unhealthy = false;
   const auto shell = [&](int block) {
-    if (!add_shell(state, block)) unhealthy = true;
+    if (!add_shell(state, block, keep)) unhealthy = true;
   };
   if (worn) {
     workers.for_each(padded.blocks(), shell);
@@ -94,7 +116,7 @@ bool TissueGradient::add_cells(const StateView& state) {
       kernel.contact_gradient(padded.shell, contact, entries.groups.data(), list.active(k), entries.self_pairs.data(),
                               entries.self_pairs.size());
     });
-  if (unhealthy) explain_unhealthy();
+  if (unhealthy) explain_unhealthy(state);
   return !unhealthy;
 }
 
@@ -104,7 +126,8 @@ void TissueGradient::add_terms(double t, const StateView& state, std::span<doubl
   for (const auto& term : extra) term->add_gradient(t, state, gradient);
 }
 
-void TissueGradient::explain_unhealthy() {
+void TissueGradient::explain_unhealthy(const StateView& state) {
+  for (int block = 0; block < padded.blocks(); ++block) add_shell(state, block, true);
   const kernels::Shell& s = padded.shell;
   for (int c = 0; c < s.cells; ++c)
     if (!(s.area[c] > 0.0)) {

@@ -21,8 +21,8 @@ class TissueGradient {
   TissueGradient(const Tissue& tissue, int ring, TissueOdeOptions options,
                  std::vector<std::shared_ptr<const EnergyTerm>> extra);
 
-  /// Rest lengths as they are in a plain rate evaluation.
-  void hold_rest_lengths(std::span<const double> rest_length);
+  /// Rest lengths as they are in a plain rate evaluation, and their rates, if wanted, with pointers to the whole tissue's arrays.
+  void hold_rest_lengths(std::span<const double> rest_length, const kernels::RestLengthFlow& flow = {});
   /// Rest lengths as functions of the lengths, one pair of coefficients per segment.
   void let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block);
 
@@ -67,16 +67,19 @@ class TissueGradient {
 
  private:
   bool add_cells(const StateView& state);
-  bool add_shell(const StateView& state, int block);
+  /// keep: segments and angles stay in the padded arrays.
+  bool add_shell(const StateView& state, int block, bool keep);
   double largest_move(const StateView& state);
   void add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
-  void explain_unhealthy();
+  void explain_unhealthy(const StateView& state);
   void explain_infinite(std::span<const double> gx, std::span<const double> gy);
   void rebuild(const StateView& state);
 
   std::vector<double> built_x_, built_y_;  // positions the list was built for
   std::vector<double> moved2_;             // per block: how far somebody is from there, squared
   const double* held_ = nullptr;           // rest lengths of a plain evaluation
+  kernels::RestLengthFlow flow_;           // of a plain evaluation
+  std::size_t room_stride_ = 0;            // of kernels::SegmentRoom
 };
 
 }  // namespace suture

@@ -98,14 +98,11 @@ Evaluation TissueOde::rate(double t, std::span<const double> y, std::span<double
   Impl& m = *impl_;
   const StateView state(m.layout, y);
   MutableStateView rate(m.layout, out);
-  m.hold_rest_lengths(state.rest_length);
+  m.hold_rest_lengths(state.rest_length, {m.inverse_tau.data(), m.memory.data(), m.reference_length.data(), rate.rest_length.data()});
   return m.evaluate(t, state, rate.x, rate.y, [&](int block) {
     const Range points = m.points_of(block);
     const std::size_t n = points.end - points.begin;
     const bool fine_x = m.kernel.negate(n, &rate.x[points.begin]), fine_y = m.kernel.negate(n, &rate.y[points.begin]);
-    const std::size_t cell = m.padded.cells_of(block).begin, vertex = m.padded.vertices_of(block).begin;
-    m.kernel.rest_length_rate(m.padded.shell_of(block), {&m.inverse_tau[cell], &m.memory[cell], &state.rest_length[vertex],
-                                                         &m.reference_length[vertex], &rate.rest_length[vertex]});
     return fine_x && fine_y;
   });
 }
@@ -146,7 +143,10 @@ Evaluation TissueOde::residual(std::span<const double> q, std::span<double> resi
 
 void TissueOde::linearise() {
   Impl& m = *impl_;
-  m.for_each_block([&](int block) { m.kernel.shell_linearise(m.padded.shell_of(block), m.padded.hessian_of(block)); });
+  m.for_each_block([&](int block) {
+    if (m.padded.blocks() > 1) m.kernel.shell_segments(m.padded.shell_of(block));
+    m.kernel.shell_linearise(m.padded.shell_of(block), m.padded.hessian_of(block));
+  });
   m.factors.linearise(m.list, m.padded.shell, m.contact, m.kernel, m.workers);
   m.extra_blocks.clear();
   for (const auto& term : m.extra) term->add_hessian(m.step_time, m.positions_view(m.linearised_at), m.extra_blocks);
