@@ -17,8 +17,9 @@ class CvodeHistory {
  public:
   CvodeHistory(void* cvode, const VectorFamily& family);
 
-  /// Whether zn[0..order] has been found: compares them with CVODE's own derivatives at its present time.
-  bool verified(N_Vector scratch);
+  /// Whether zn[0..order] has been found: compares them with CVODE's own derivatives at its present time; with the highest one
+  /// only if this instance's array is `known` to be where it was at an event before.
+  bool verified(N_Vector scratch, bool known);
   /// Moves the point of expansion by `shift` (model units of time, within the last step).
   void shift(double shift);
   /// zn[0] = y; the derivatives stay.
@@ -27,6 +28,9 @@ class CvodeHistory {
   double set_rate(N_Vector f, N_Vector weights);
 
  private:
+  /// Whether zn[j] is the j-th derivative at t over `scale`.
+  bool has_derivative(double t, int j, double scale, N_Vector scratch) const;
+
   void* cvode_;
   std::vector<N_Vector> zn_;  ///< 0 .. last order
   double h_ = 0.0;            ///< the step the array is scaled with

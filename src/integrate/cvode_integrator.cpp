@@ -66,6 +66,7 @@ class CvodeIntegrator final : public Integrator {
   std::int64_t rates_ = 0;
   std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
   std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
+  bool history_known_ = false;  // where CVODE keeps its past has been found at the last event
   EventStep event_step_{2.0};
   double first_step_ = 0.0;  // at most, when an event has just been passed
   std::exception_ptr exception_;  // thrown inside a callback; exceptions must not cross C frames
@@ -252,7 +253,8 @@ void CvodeIntegrator::interpolate(double t, std::span<double> y) const {
 /// What is not, the error test sees at the next step, as it sees any other rough spot.
 void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<const int> source) {
   CvodeHistory history(cvode_, *family_);
-  const bool keep = options_.keep_history && last_step_ > 0.0 && history.verified(interpolated_);
+  const bool keep = options_.keep_history && last_step_ > 0.0 && history.verified(interpolated_, history_known_);
+  history_known_ = keep;
   if (keep) history.shift(t - time_);
   if (!source.empty()) {
     family_->rearrange(source);

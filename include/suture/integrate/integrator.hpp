@@ -36,7 +36,7 @@ struct IntegratorOptions {
   double initial_step = 0.0;           ///< 0: chosen
   double maximum_step = 0.0;           ///< 0: none
   double vertex_mass = 1.0;            ///< velocity Verlet
-  double switch_stages = 12.0;         ///< automatic: rates per step of RKC2 from which CVODE takes over
+  double switch_stages = 8.0;          ///< automatic: rates per step of RKC2 from which CVODE takes over
   double largest_move = 0.06;          ///< of a vertex in one Newton iteration, model units of length
   int maximum_order = 3;               ///< forces have kinks: higher orders amplify what the solver leaves
   LinearSolver linear_solver = LinearSolver::structured;

@@ -212,7 +212,7 @@ struct IntegratorParameters {
   double maximum_step = std::numeric_limits<double>::infinity();
   std::optional<double> time_step;   ///< fixed-step methods; unset: 0.01 l0/sqrt(k_a)
   double vertex_mass = 1.0;          ///< of method verlet; the overdamped motion has none
-  double switch_stages = 12.0;       ///< method auto: rates per step of RKC2 from which CVODE takes over
+  double switch_stages = 8.0;        ///< method auto: rates per step of RKC2 from which CVODE takes over
   double skin = 0.4;                 ///< Verlet-list skin, in units of l0(0)
   int threads = 1;
   bool operator==(const IntegratorParameters&) const = default;
