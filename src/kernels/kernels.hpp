@@ -58,9 +58,9 @@ struct ShellInput {
   SegmentRoom room{};
 };
 
-/// Rest lengths a + b l at (x, y), without padding, from the first vertex of the shell's first cell on.
+/// Rest lengths rest_a + rest_b l at (x, y), without padding, from the first vertex of the shell's first cell on.
 struct RestLengthLine {
-  const double *x = nullptr, *y = nullptr, *a = nullptr, *b = nullptr;
+  const double *x = nullptr, *y = nullptr;
   double* rest_length = nullptr;
 };
 

@@ -293,7 +293,7 @@ void rest_lengths(const Shell& s, const RestLengthLine& line) {
   std::size_t first = 0;
   for (int cell = 0; cell < s.cells; ++cell) {
     const int n = s.count[cell];
-    const double *x = line.x + first, *y = line.y + first, *a = line.a + first, *b = line.b + first;
+    const double *x = line.x + first, *y = line.y + first, *a = s.rest_a + s.base[cell] + 1, *b = s.rest_b + s.base[cell] + 1;
     double* out = line.rest_length + first;
     const auto one = [&](int k, int next) {
       const double dx = x[next] - x[k], dy = y[next] - y[k];

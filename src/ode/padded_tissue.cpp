@@ -90,12 +90,9 @@ kernels::ShellHessian PaddedTissue::hessian_of(int block) const {
 void PaddedTissue::unpack(std::span<const double> values, double* padded, int block) const {
   const double* source = values.data() + vertices_of(block).begin;
   for (std::size_t c = blocks_[block].begin; c < blocks_[block].end; ++c) {
-    double* a = padded + base_[c];
-    const int n = count_[c];
-    std::memcpy(a + 1, source, n * sizeof(double));
-    a[0] = a[n];
-    for (int k = 1; k < kernels::halo; ++k) a[n + k] = a[k];
-    source += n;
+    std::memcpy(padded + base_[c] + 1, source, count_[c] * sizeof(double));
+    repeat_ends(padded, static_cast<int>(c));
+    source += count_[c];
   }
 }
 

@@ -36,6 +36,13 @@ class PaddedTissue {
   void unpack(std::span<const double> values, double* padded, int block) const;
   void fold_and_pack(double* padded, std::span<double> values, int block) const;
   void pack_gradient(std::span<double> gx, std::span<double> gy, int block = 0) const;
+  /// What repeats the vertices of one cell.
+  void repeat_ends(double* padded, int cell) const {
+    double* a = padded + base_[cell];
+    const int n = count_[cell];
+    a[0] = a[n];
+    for (int k = 1; k < kernels::halo; ++k) a[n + k] = a[k];
+  }
   /// padded <- contiguous, halo included.
   void unpack(std::span<const double> values, double* padded) const;
   /// Folds the halo of an accumulated array onto its vertices, then packs.

@@ -63,10 +63,7 @@ void TissueGradient::hold_rest_lengths(std::span<const double> rest_length, cons
   flow_ = flow;
 }
 
-void TissueGradient::let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block) {
-  padded.unpack(rest_a, padded.shell.rest_a, block);
-  padded.unpack(rest_b, padded.shell.rest_b, block);
-  if (block != 0) return;
+void TissueGradient::let_rest_lengths_follow() {
   held_ = nullptr;
   flow_ = {};
 }

@@ -23,8 +23,8 @@ class TissueGradient {
 
   /// Rest lengths as they are in a plain rate evaluation, and their rates, if wanted, with pointers to the whole tissue's arrays.
   void hold_rest_lengths(std::span<const double> rest_length, const kernels::RestLengthFlow& flow = {});
-  /// Rest lengths as functions of the lengths, one pair of coefficients per segment.
-  void let_rest_lengths_follow(std::span<const double> rest_a, std::span<const double> rest_b, int block);
+  /// Rest lengths as functions of the lengths, with the coefficients that are in padded.shell.
+  void let_rest_lengths_follow();
 
   /// dU/dr at (x, y) with the rest lengths set before; gx, gy have one entry per point. finish(block) is called, for several
   /// blocks at once, as soon as the entries of points_of(block) are final; it returns whether they are finite.

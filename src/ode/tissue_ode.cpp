@@ -24,8 +24,6 @@ struct TissueOde::Impl : TissueGradient {
     }
     const int vertices = tissue.vertex_count();
     for (int v = 0; v < vertices; ++v) reference_length.push_back(reference.empty() ? tissue.initial_rest_length(v) : reference[v]);
-    for (auto* array : {&rest_a, &rest_b}) array->resize(vertices);
-    position_psi.resize(layout.positions());
   }
 
   StateView positions_view(std::span<const double> q) const {
@@ -59,10 +57,10 @@ struct TissueOde::Impl : TissueGradient {
 
   // The implicit step in progress.
   double step_time = 0.0, gamma = 0.0;
-  std::vector<double> position_psi, rest_a, rest_b;
+  std::span<const double> psi;
   ContactFactors factors;
   BlockList extra_blocks;
-  std::vector<double> linearised_at;  // q of the last residual, for the extra terms
+  std::span<const double> evaluated_at;  // q of the last residual, for the extra terms
 };
 
 TissueOde::TissueOde(const Tissue& tissue, int ring_size, TissueOdeOptions options,
@@ -75,7 +73,6 @@ void TissueOde::replace_extra(int ring_size, std::vector<std::shared_ptr<const E
   Impl& m = *impl_;
   m.layout.ring = ring_size;
   m.extra = std::move(extra);
-  m.position_psi.resize(m.layout.positions());
   m.preconditioner.set_ring_size(ring_size);
 }
 int TissueOde::size() const { return impl_->layout.size(); }
@@ -111,18 +108,19 @@ void TissueOde::begin_implicit_step(double t, double gamma, std::span<const doub
   Impl& m = *impl_;
   m.step_time = t;
   m.gamma = gamma;
+  m.psi = psi;
+  m.let_rest_lengths_follow();
   const double* memory_psi = psi.data() + m.layout.positions();
   m.for_each_block([&](int block) {
-    m.visit_positions(block, [&](Range r) { std::copy_n(&psi[r.begin], r.end - r.begin, &m.position_psi[r.begin]); });
     for (std::size_t c = m.padded.cells_of(block).begin; c < m.padded.cells_of(block).end; ++c) {
       const double r = gamma * m.inverse_tau[c], scale = 1.0 / (1.0 + r), memory = m.memory[c];
-      const int cell = static_cast<int>(c);
-      for (int v = m.tissue.first_vertex(cell); v < m.tissue.end_vertex(cell); ++v) {
-        m.rest_a[v] = (memory_psi[v] + r * memory * m.reference_length[v]) * scale;
-        m.rest_b[v] = r * (1.0 - memory) * scale;
-      }
+      const int cell = static_cast<int>(c), first = m.tissue.first_vertex(cell), n = m.tissue.vertex_count(cell);
+      double *a = m.padded.shell.rest_a + m.padded.shell.base[c] + 1, *b = m.padded.shell.rest_b + m.padded.shell.base[c] + 1;
+      for (int k = 0; k < n; ++k) a[k] = (memory_psi[first + k] + r * memory * m.reference_length[first + k]) * scale;
+      std::fill_n(b, n, r * (1.0 - memory) * scale);
+      m.padded.repeat_ends(m.padded.shell.rest_a, cell);
+      m.padded.repeat_ends(m.padded.shell.rest_b, cell);
     }
-    m.let_rest_lengths_follow(m.rest_a, m.rest_b, block);
   });
 }
 
@@ -133,11 +131,11 @@ Evaluation TissueOde::residual(std::span<const double> q, std::span<double> resi
       m.evaluate(m.step_time, m.positions_view(q), residual.first(points), residual.subspan(points, points), [&](int block) {
         bool fine = true;
         m.visit_positions(block, [&](Range r) {
-          fine &= m.kernel.implicit_residual(r.end - r.begin, &q[r.begin], &m.position_psi[r.begin], m.gamma, &residual[r.begin]);
+          fine &= m.kernel.implicit_residual(r.end - r.begin, &q[r.begin], &m.psi[r.begin], m.gamma, &residual[r.begin]);
         });
         return fine;
       });
-  if (evaluation == Evaluation::ok && !m.extra.empty()) m.linearised_at.assign(q.begin(), q.end());
+  m.evaluated_at = q;
   return evaluation;
 }
 
@@ -149,7 +147,7 @@ void TissueOde::linearise() {
   });
   m.factors.linearise(m.list, m.padded.shell, m.contact, m.kernel, m.workers);
   m.extra_blocks.clear();
-  for (const auto& term : m.extra) term->add_hessian(m.step_time, m.positions_view(m.linearised_at), m.extra_blocks);
+  for (const auto& term : m.extra) term->add_hessian(m.step_time, m.positions_view(m.evaluated_at), m.extra_blocks);
 }
 
 void TissueOde::product(std::span<const double> v, std::span<double> out) {
@@ -236,7 +234,7 @@ void TissueOde::recover_memory(std::span<const double> q, std::span<double> memo
   Impl& m = *impl_;
   m.for_each_block([&](int block) {
     const std::size_t first = m.padded.vertices_of(block).begin;
-    m.kernel.rest_lengths(m.padded.shell_of(block), {&q[first], &q[m.layout.points() + first], &m.rest_a[first], &m.rest_b[first], &memory[first]});
+    m.kernel.rest_lengths(m.padded.shell_of(block), {&q[first], &q[m.layout.points() + first], &memory[first]});
   });
 }
 

@@ -36,11 +36,11 @@ class OdeSystem {
 /// by their own implicit step. All vectors are position vectors of length position_count().
 class GradientFlowSystem : public OdeSystem {
  public:
-  /// Fixes t, gamma and psi (length size(): positions and rest lengths).
+  /// Fixes t, gamma and psi (length size(): positions and rest lengths), which has to stay as it is as long as the step lasts.
   virtual void begin_implicit_step(double t, double gamma, std::span<const double> psi) = 0;
   /// residual = q - psi_q + gamma dU/dq.
   virtual Evaluation residual(std::span<const double> q, std::span<double> residual) = 0;
-  /// Stores the second derivatives at the point of the last residual evaluation.
+  /// Stores the second derivatives at the point of the last residual evaluation, whose q must still be there.
   virtual void linearise() = 0;
   /// out = (I + gamma H) v at the last linearisation.
   virtual void product(std::span<const double> v, std::span<double> out) = 0;
