@@ -83,11 +83,11 @@ struct GridProblem {
 
 /// On the first of several wounds whose references agree for a quarter of the horizon, or longest: on some a contact that
 /// switches parts them at once, which has nothing to do with tolerances.
-GridProblem grid_problem(std::vector<Packed>& wounds, double area_stiffness, double tau, double horizon, double agreement) {
+GridProblem grid_problem(std::vector<Packed>& wounds, bool small, double area_stiffness, double tau, double horizon, double agreement) {
   constexpr std::uint64_t most_seeds = 5;
   GridProblem longest;
   for (std::uint64_t seed = 1; seed <= most_seeds; ++seed) {
-    if (wounds.size() < seed) wounds.push_back(wounded_tissue(false, {}, seed));
+    if (wounds.size() < seed) wounds.push_back(wounded_tissue(small, {}, seed));
     Packed material = wounds[seed - 1];
     set_material(material, area_stiffness, tau);
     GridProblem problem{{material.config, with_ring(material.config, material.state)}, {}};
@@ -108,7 +108,7 @@ void measure_tolerance_grid(const Settings& settings, Report& report, const Pack
   for (const double area_stiffness : {0.25, 1.0, 16.0, 40.0, 256.0})
     for (const double tau : {2.4, 9.6, 76.8, 1228.8, 39321.6}) {
       if (settings.smoke && (area_stiffness != 16.0 || tau != 9.6)) continue;
-      const auto [problem, reference] = grid_problem(wounds, area_stiffness, tau, horizon, 0.1 * tightest);
+      const auto [problem, reference] = grid_problem(wounds, settings.smoke, area_stiffness, tau, horizon, 0.1 * tightest);
       for (const Method method : {Method::cvode, Method::rkc2})
         for (const double tolerance : {1e-2, 1e-3, tightest}) {
           const Samples run = sample(problem, with_tolerance(method, tolerance, problem.state), reference.interval, reference.count());

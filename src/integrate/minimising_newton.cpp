@@ -1,7 +1,6 @@
 #include "integrate/minimising_newton.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace suture {
@@ -60,13 +59,6 @@ double MinimisingNewton::linearise(double gamma, double fz, bool renew) {
   if (!options_.always_set_up && !(renew && preconditioner_age_ > 1)) return fz;
   refresh(gamma);
   return precondition_residual();
-}
-
-double MinimisingNewton::largest(const double* v) const {
-  std::array<double, 8> most{};  // one would wait for the last comparison
-  for (std::size_t i = 0; i < padded_; i += most.size())
-    for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::max(most[k], std::abs(v[i + k]));
-  return *std::max_element(most.begin(), most.end());
 }
 
 bool MinimisingNewton::too_long(const NewtonTarget& target) {
@@ -142,7 +134,7 @@ void MinimisingNewton::limit_step() {
 bool MinimisingNewton::line_search() {
   const VectorOperations& k = operations_;
   limit_step();
-  const double longest = largest(d_);
+  const double longest = k.add_and_largest(padded_, q_, d_, trial_);
   if (longest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / longest, d_, 0.0, d_, d_);
   const double slope = k.dot(padded_, f_, d_);
   // Forces are piecewise linear, so one secant on the directional derivative is nearly exact.

@@ -61,7 +61,6 @@ class MinimisingNewton {
   double precondition_residual();
   /// At q_. Returns f.z, which a new set-up changes; fz: before. renew: set P up anew unless this solve has done so.
   double linearise(double gamma, double fz, bool renew);
-  double largest(const double* v) const;
   bool too_long(const NewtonTarget& target);
   /// Preconditioned nonlinear conjugate gradients (Polak & Ribiere 1969, not below zero) from q_, its residual f_ and
   /// z_ = P^-1 f_. Forces are piecewise linear, so the difference of two residuals is a product with the Hessian: an iteration

@@ -65,9 +65,9 @@ SUTURE_INLINE void from_lanes(const CellLanes& l, const float* in, const float* 
       });
 }
 
-void apply_cells(const CellFactors& f, const CellLanes& l, const double* r, double* z, float* rhs) {
+void apply_cells(const CellFactors& f, const CellLanes& l, const double* r, double* z, std::size_t y, float* rhs) {
   to_lanes(l, r, f.rows, rhs);
-  to_lanes(l, r + l.y, f.rows, rhs + float_lanes);
+  to_lanes(l, r + y, f.rows, rhs + float_lanes);
   cyclic_solve<Float16>(f, rhs);
   Float16 x_product{}, y_product{};
   for (int row = 0, at = 0; row < f.rows; ++row, at += 2 * float_lanes) {
@@ -77,5 +77,5 @@ void apply_cells(const CellFactors& f, const CellLanes& l, const double* r, doub
   alignas(64) float area[float_lanes];
   store(area, load(f.gain) * (x_product + y_product));
   from_lanes(l, rhs, f.area_solution, area, f.rows, z);
-  from_lanes(l, rhs + float_lanes, f.area_solution + float_lanes, area, f.rows, z + l.y);
+  from_lanes(l, rhs + float_lanes, f.area_solution + float_lanes, area, f.rows, z + y);
 }

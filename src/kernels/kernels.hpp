@@ -199,7 +199,6 @@ struct CellLanes {
   int first[CellFactors::cells] = {};  ///< vertex of each cell
   int lead[CellFactors::cells] = {};   ///< identity rows before it
   int common = 0;                      ///< largest lead
-  std::size_t y = 0;                   ///< from a point's x to its y
 };
 
 struct Table {
@@ -235,8 +234,8 @@ struct Table {
   bool (*near_pairs)(const Shell&, int cell, int first, const SegmentBoxes&, int first_box, double reach2, std::uint64_t* words);
   /// Rounds eight factored cells into lanes 8 half .. 8 half + 7.
   void (*narrow_cells)(const CyclicBatch&, const double* area_gradient, const double* area_solution, int half, const CellFactors&);
-  /// z = P^-1 r on the cells' points; rhs: room for 32 floats per row, finite, zero in rows before a cell's first.
-  void (*apply_cells)(const CellFactors&, const CellLanes&, const double* r, double* z, float* rhs);
+  /// z = P^-1 r on the cells' points; y: from a point's x to its y; rhs: room for 32 floats per row, finite.
+  void (*apply_cells)(const CellFactors&, const CellLanes&, const double* r, double* z, std::size_t y, float* rhs);
   void (*cyclic_factor1)(const CyclicBatch&);
   void (*cyclic_factor8)(const CyclicBatch&);
   /// rhs: (row, x or y, lane); overwritten by the solution.

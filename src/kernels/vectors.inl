@@ -113,8 +113,30 @@ void linear_combination(std::size_t n, int count, const double* c, const double*
 }
 
 /// z[j] = a[j] x + y[j]
+template <int count>
+void add_scaled(std::size_t n, const double* a, const double* x, const double* const* y, double* const* z) {
+  const double* from[count];
+  double *to[count], factor[count];
+  for (int j = 0; j < count; ++j) from[j] = y[j], to[j] = z[j], factor[j] = a[j];
+  std::size_t k = 0;
+  for (; k + lanes <= n; k += lanes) {
+    const Double8 v = load(x + k);
+    for (int j = 0; j < count; ++j) store(to[j] + k, factor[j] * v + load(from[j] + k));
+  }
+  for (; k < n; ++k) {
+    const double v = x[k];
+    for (int j = 0; j < count; ++j) to[j][k] = factor[j] * v + from[j][k];
+  }
+}
+
 void scale_add_multi(std::size_t n, int count, const double* a, const double* x, const double* const* y, double* const* z) {
-  for (int j = 0; j < count; ++j) linear_sum(n, a[j], x, 1.0, y[j], z[j]);
+  for (; count > 4; count -= 4, a += 4, y += 4, z += 4) add_scaled<4>(n, a, x, y, z);
+  switch (count) {
+    case 1: return add_scaled<1>(n, a, x, y, z);
+    case 2: return add_scaled<2>(n, a, x, y, z);
+    case 3: return add_scaled<3>(n, a, x, y, z);
+    default: return add_scaled<4>(n, a, x, y, z);
+  }
 }
 
 /// The largest (x - x0)^2 + (y - y0)^2; what is not a number does not count.

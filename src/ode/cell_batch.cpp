@@ -114,9 +114,7 @@ void CellBatch::set_up(double gamma, const PaddedTissue& padded, const double* d
 }
 
 void CellBatch::apply(const double* r, double* z, std::size_t points, const kernels::Table& kernel, FactorRoom& room) const {
-  kernels::CellLanes lanes = lanes_;
-  lanes.y = points;
-  kernel.apply_cells(factors_, lanes, r, z, room.rhs);
+  kernel.apply_cells(factors_, lanes_, r, z, points, room.rhs);
 }
 
 }  // namespace suture

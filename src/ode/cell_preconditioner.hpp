@@ -15,7 +15,7 @@ namespace suture {
 
 class CellPreconditioner {
  public:
-  /// ring_size: 0 or at least 3. Takes its memory, 130 bytes per vertex, at the first set_up(): explicit methods never do.
+  /// ring_size: 0 or at least 3. Takes its memory, 140 bytes per vertex, at the first set_up(): explicit methods never do.
   CellPreconditioner(const Tissue& tissue, const PaddedTissue& padded, int ring_size, const kernels::Table& kernel);
 
   void set_ring_size(int ring_size);

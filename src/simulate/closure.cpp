@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "io/model_archive.hpp"
 #include "simulate/closure_events.hpp"
@@ -16,6 +17,8 @@
 namespace suture {
 
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Closure {
  public:
@@ -63,7 +66,7 @@ class Closure {
   double last_area_ = 0.0;
   ClosureResult result_;
   double next_checkpoint_ = 0.0;
-  double next_kink_ = -1e300;  // after the integrator's time, once that has passed the last; the ring changes only at restarts
+  double next_kink_ = -infinity;  // after the integrator's time, once that has passed the last; the ring changes only at restarts
   bool done_ = false;
 };
 
@@ -141,7 +144,7 @@ void Closure::resume(TissueState at_event) {
   std::vector<int> source;
   if (at_event.purse_string.vertex != state_.purse_string.vertex) source = component_sources(state_, at_event);
   state_ = std::move(at_event);
-  next_kink_ = -1e300;
+  next_kink_ = -infinity;
   ode_->replace_extra(state_.purse_string.size(), string_terms());
   integrator_->resume(state_.time, state_.values, source);
   ++restarts_;
@@ -208,7 +211,7 @@ void Closure::guard_progress(double event_time) {
 }
 
 void Closure::step() {
-  if (next_kink_ <= integrator_->time()) next_kink_ = next_kink_time(state_.purse_string, integrator_->time()).value_or(1e300);
+  if (next_kink_ <= integrator_->time()) next_kink_ = next_kink_time(state_.purse_string, integrator_->time()).value_or(infinity);
   double limit = std::min(end_, next_kink_);
   if (integrator_->stops_cheaply()) limit = std::min(limit, events_.next_known(integrator_->time()));
   integrator_->step(limit);

@@ -7,6 +7,7 @@
 #include "neighbors/contact_list.hpp"
 #include "ode/padded_tissue.hpp"
 #include "support/random_tissue.hpp"
+#include "support/runnable_tables.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -109,9 +110,6 @@ void compare(const kernels::Shell& s, const Reach& reach, const ContactList::Ent
 }  // namespace
 
 TEST_CASE("the contact list is what a plain search finds, in its order", "[property]") {
-  std::vector<const kernels::Table*> tables{&kernels::baseline};
-  if (__builtin_cpu_supports("x86-64-v3")) tables.push_back(&kernels::avx2);
-  if (__builtin_cpu_supports("x86-64-v4")) tables.push_back(&kernels::avx512);
   struct Size {
     int rows, columns, least, most;
   };
@@ -119,7 +117,7 @@ TEST_CASE("the contact list is what a plain search finds, in its order", "[prope
   for (const Size size : {Size{3, 3, 3, 12}, Size{3, 4, 15, 33}, Size{2, 2, 60, 140}, Size{9, 9, 5, 9}})
     for (const double spacing : {0.9, 0.5})
       for (const Reach reach : {Reach{0.05, 0.03, 0.02}, Reach{0.2, 0.15, 0.1}, Reach{0.6, 0.9, 0.2}})
-        for (const kernels::Table* table : tables) {
+        for (const kernels::Table* table : runnable_tables()) {
           const TissueState state = random_tissue(size.most, {.rows = size.rows, .columns = size.columns, .minimum_vertices = size.least,
                                                               .maximum_vertices = size.most, .spacing = spacing});
           PaddedTissue padded(state.tissue, SpringLaw::quadratic);

@@ -6,6 +6,7 @@
 #include "support/implicit_step.hpp"
 #include "support/integration.hpp"
 #include "support/random_tissue.hpp"
+#include "support/runnable_tables.hpp"
 
 using namespace suture;
 using namespace suture::test;
@@ -18,7 +19,8 @@ TEST_CASE("cells that share a batch do not know of each other, whatever their si
   const Tissue& tissue = state.tissue;
   const int cells = tissue.cell_count(), vertices = tissue.vertex_count(), points = vertices + 5;
   PaddedTissue padded(tissue, SpringLaw::quadratic);
-  const kernels::Table& kernel = kernels::best();
+  const kernels::Table& kernel = *GENERATE(from_range(runnable_tables()));
+  CAPTURE(kernel.name);
   REQUIRE(kernel.shell_gradient(padded.shell, {state.view().x.data(), state.view().y.data(), state.view().rest_length.data()}));
   kernel.shell_linearise(padded.shell, padded.hessian);
   std::vector<double> diagonal(4 * padded.slots());

@@ -5,18 +5,12 @@
 #include <random>
 
 #include "kernels/aligned_buffer.hpp"
-#include "kernels/kernels.hpp"
+#include "support/runnable_tables.hpp"
 
 using namespace suture;
+using namespace suture::test;
 
 namespace {
-
-std::vector<const kernels::Table*> runnable_tables() {
-  std::vector<const kernels::Table*> tables{&kernels::baseline};
-  if (__builtin_cpu_supports("x86-64-v3")) tables.push_back(&kernels::avx2);
-  if (__builtin_cpu_supports("x86-64-v4")) tables.push_back(&kernels::avx512);
-  return tables;
-}
 
 /// I + G^T G with second differences of random 2 x 2 blocks along a closed chain: symmetric, definite, cyclic band 2.
 Eigen::MatrixXd random_cyclic(int n, std::mt19937& engine) {

@@ -8,6 +8,7 @@
 #include "support/integration.hpp"
 #include "support/newton_terms.hpp"
 #include "support/random_tissue.hpp"
+#include "suture/physics/contact_geometry.hpp"
 #include "suture/physics/purse_string_chain.hpp"
 #include "suture/physics/purse_string_operations.hpp"
 #include "suture/physics/purse_string_tethers.hpp"
@@ -60,6 +61,36 @@ TEST_CASE("preconditioned conjugate gradients solve what a sparse factorisation 
       CHECK(relative_difference(x, expected) < 1e-10);
       CHECK(iterations < 60);
     }
+}
+
+TEST_CASE("the Newton matrix has no contact that is subtracted at a concave corner", "[unit]") {
+  Config config;
+  config.contact = contact_law(contact_distance);
+  const double reach = contact_distance * (1.0 + config.contact.adhesion);
+  int subtracted = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const TissueState state = stretched(seed, {.spacing = 0.95, .roughness = 0.3});
+    const StateView view = state.view();
+    for (int v = 0; v < state.tissue.vertex_count(); ++v)
+      for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
+        if (cell == state.tissue.cell_of(v)) continue;
+        const int first = state.tissue.first_vertex(cell), n = state.tissue.vertex_count(cell);
+        for_each_contact_feature({view.x[v], view.y[v]}, view.x.subspan(first, n), view.y.subspan(first, n), [](int, double) {},
+                                 [&](int k, int weight) {
+                                   subtracted += weight < 0 && std::hypot(view.x[v] - view.x[first + k], view.y[v] - view.y[first + k]) < reach;
+                                 });
+      }
+    const double gamma = 0.01;
+    TissueOde ode(state.tissue, 0, ode_options(config.contact, SpringLaw::quadratic, false), {});
+    linearise(ode, state, gamma);
+    const Eigen::VectorXd v = wave(ode.position_count());
+    const Eigen::VectorXd expected = v + gamma * (assemble_hessian(newton_terms(state.tissue, config), 0.0, view) * v);
+    Eigen::VectorXd product(v.size());
+    ode.product(span(v), span(product));
+    CAPTURE(seed);
+    CHECK(relative_difference(product, expected) < 1e-11);
+  }
+  CHECK(subtracted > 10);
 }
 
 TEST_CASE("eliminating rest lengths scales the membrane stiffness by (tau + gamma xi)/(tau + gamma)", "[unit]") {

@@ -8,18 +8,12 @@
 #include "ode/padded_tissue.hpp"
 #include "support/integration.hpp"
 #include "support/random_tissue.hpp"
+#include "support/runnable_tables.hpp"
 
 using namespace suture;
 using namespace suture::test;
 
 namespace {
-
-std::vector<const kernels::Table*> runnable_tables() {
-  std::vector<const kernels::Table*> tables{&kernels::baseline};
-  if (__builtin_cpu_supports("x86-64-v3")) tables.push_back(&kernels::avx2);
-  if (__builtin_cpu_supports("x86-64-v4")) tables.push_back(&kernels::avx512);
-  return tables;
-}
 
 kernels::ContactScalars scalars(double s, double l1, double l2) {
   const double e = 0.5, outer = 2.0 * e * l1 / (l2 - l1);
