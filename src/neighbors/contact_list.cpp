@@ -28,15 +28,10 @@ void ContactList::build(const kernels::Shell& shell, const kernels::Table& kerne
     return !lists_[schedule_.list_between(s, t)].windows.empty() ||
            !lists_[schedule_.list_between(t, s)].windows.empty();
   });
-  workers.for_each(schedule_.lists(), [&](int k) { lists_[k].groups.assign(lists_[k].windows); });
-  active_bands_ = 1;
-  age(0.0);
-}
-
-void ContactList::age(double moved) {
-  const int wanted =
-      skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
-  active_bands_ = std::max(active_bands_, wanted);
+  workers.for_each(schedule_.lists(), [&](int k) {
+    lists_[k].groups.assign(lists_[k].windows);
+    age(k, 0.0);
+  });
 }
 
 void ContactList::find_boxes(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers) {
@@ -81,7 +76,7 @@ void ContactList::fill_buckets() {
 
 void ContactList::fill_part(int part, const kernels::Shell& shell, const kernels::Table& kernel) {
   Scratch& scratch = scratch_[part];
-  const auto clear = [](Entries& entries) { entries.windows.clear(), entries.self_pairs.clear(); };
+  const auto clear = [](Entries& entries) { entries.windows.clear(), entries.self_pairs.clear(), entries.blocks.clear(); };
   const Range blocks = schedule_.blocks_of(part);
   for (std::size_t block = blocks.begin; block < blocks.end; ++block) clear(lists_[block]);
   for (int other = 0; other < schedule_.parts(); ++other) clear(lists_[schedule_.list_between(part, other)]);
@@ -90,6 +85,7 @@ void ContactList::fill_part(int part, const kernels::Shell& shell, const kernels
          k < schedule_.cells_of(static_cast<int>(block)).end; ++k) {
       const auto c = static_cast<int>(k);
       find_neighbors(c, scratch.neighbors);
+      note_blocks(c, scratch.neighbors);
       add_windows(scratch, shell, kernel, c);
       if (self_reach_ > 0.0) add_self_pairs(scratch, lists_[block], shell, kernel, c);
     }
@@ -112,6 +108,14 @@ void ContactList::find_neighbors(int cell, std::vector<Neighbor>& neighbors) con
       }
   std::sort(neighbors.begin(), neighbors.end(),
             [](const Neighbor& one, const Neighbor& two) { return one.cell < two.cell; });
+}
+
+void ContactList::note_blocks(int cell, const std::vector<Neighbor>& neighbors) {
+  const auto note = [](std::vector<int>& blocks, int block) {
+    if (std::find(blocks.begin(), blocks.end(), block) == blocks.end()) blocks.push_back(block);
+  };
+  for (const Neighbor& neighbor : neighbors)
+    for (const int c : {cell, neighbor.cell}) note(lists_[neighbor.list].blocks, schedule_.block_of(c));
 }
 
 /// Scratch has room for what is found.

@@ -6,9 +6,11 @@
 // Every window knows the band of distances it was in when the list was built. As long as no vertex has moved by more than
 // m, what was farther than reach + 2 m away is out of reach, and only the bands before that are active.
 //
-// The list of a large tissue is several (contact_schedule.hpp).
+// The list of a large tissue is several (contact_schedule.hpp), each as old as the cells it is about.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "kernels/kernels.hpp"
@@ -26,6 +28,8 @@ class ContactList {
     std::vector<kernels::Window> windows;  ///< by the vertex's cell, vertex and other cell
     WindowGroups groups;                   ///< the same
     std::vector<kernels::SelfPair> self_pairs;
+    std::vector<int> blocks;               ///< all whose vertices or segments are listed, and perhaps some near them
+    int active_bands = bands;
   };
 
   ContactList() = default;
@@ -36,13 +40,16 @@ class ContactList {
   /// Rebuilds from the padded positions and segments of `shell` (wrapped, segment arrays up to date).
   void build(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers = WorkerPool::alone());
 
-  /// Says how far the farthest vertex has moved since, at most skin/2. Active bands stay active.
-  void age(double moved);
+  /// Says how far the farthest vertex of entries(list).blocks is from where it was, at most skin/2.
+  void age(int list, double moved) {
+    lists_[list].active_bands =
+        skin_ > 0.0 ? std::min(1 + static_cast<int>(std::ceil(2.0 * moved / skin_ * (bands - 1))), bands) : bands;
+  }
 
   const ContactSchedule& schedule() const { return schedule_; }
   const Entries& entries(int list) const { return lists_[list]; }
   /// How many windows of entries(list).groups can be in reach.
-  std::size_t active(int list) const { return lists_[list].groups.windows(active_bands_); }
+  std::size_t active(int list) const { return lists_[list].groups.windows(lists_[list].active_bands); }
   double skin() const { return skin_; }
 
  private:
@@ -68,12 +75,14 @@ class ContactList {
   void fill_buckets();
   void fill_part(int part, const kernels::Shell& shell, const kernels::Table& kernel);
   void find_neighbors(int cell, std::vector<Neighbor>& neighbors) const;
+  /// Their lists are about this cell and them.
+  void note_blocks(int cell, const std::vector<Neighbor>& neighbors);
   kernels::NearQuery query_around(int cell, const kernels::Shell& shell, const kernels::Table& kernel, Scratch& scratch) const;
   void add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int cell);
   void add_self_pairs(Scratch& scratch, Entries& entries, const kernels::Shell& shell, const kernels::Table& kernel, int cell) const;
 
   double reach_ = 0.0, self_reach_ = 0.0, skin_ = 0.0;
-  int cells_per_block_ = 0, active_bands_ = 0;
+  int cells_per_block_ = 0;
   ContactSchedule schedule_;
   std::vector<Entries> lists_;
   std::vector<Scratch> scratch_;  // per part

@@ -35,12 +35,13 @@ class ContactSchedule {
   int blocks() const { return blocks_.count(); }
   int lists() const { return blocks() + parts() * parts(); }
   Range cells_of(int block) const { return blocks_[block]; }
+  int block_of(int cell) const { return cell / static_cast<int>(blocks_.length); }
   Range blocks_of(int part) const { return parts_[part]; }
   /// List of the vertices of part s against segments of part t, another one.
   int list_between(int s, int t) const { return blocks() + s * parts() + t; }
   /// List of the vertices of `cell` against segments of `other`.
   int list_of(int cell, int other) const {
-    const int a = cell / static_cast<int>(blocks_.length), b = other / static_cast<int>(blocks_.length);
+    const int a = block_of(cell), b = block_of(other);
     const int s = a / static_cast<int>(parts_.length), t = b / static_cast<int>(parts_.length);
     return s == t ? std::max(a, b) : list_between(s, t);
   }

@@ -81,38 +81,58 @@ bool TissueGradient::add_shell(const StateView& state, int block, bool keep) {
   return kernel.shell_gradient(padded.shell_of(block), in);
 }
 
-/// How far somebody is from where the list was built.
-double TissueGradient::largest_move(const StateView& state) {
-  workers.for_each(padded.blocks(), [&](int block) {
-    const auto [begin, end] = padded.vertices_of(block);
-    moved2_[block] = kernel.largest_move2(end - begin, &state.x[begin], &state.y[begin], &built_x_[begin], &built_y_[begin]);
-  });
-  return std::sqrt(*std::max_element(moved2_.begin(), moved2_.end()));
+/// How far somebody of a block is from where the list was built, squared.
+double TissueGradient::largest_move2(const StateView& state, int block) const {
+  const auto [begin, end] = padded.vertices_of(block);
+  return kernel.largest_move2(end - begin, &state.x[begin], &state.y[begin], &built_x_[begin], &built_y_[begin]);
 }
 
-/// Shells and contacts. A block's shells are made just before its contacts, unless a new list needs all of them first.
+void TissueGradient::add_contacts(int k) {
+  const ContactList::Entries& entries = list.entries(k);
+  kernel.contact_gradient(padded.shell, contact, entries.groups.data(), list.active(k), entries.self_pairs.data(), entries.self_pairs.size());
+}
+
+/// A block is looked at just before its contacts, while it is in the cache.
+bool TissueGradient::add_by_old_list(const StateView& state, std::atomic<bool>& unhealthy) {
+  if (rebuilds == 0) return false;
+  // The linearisation of an implicit step reads segments; those of a large tissue it makes anew.
+  const bool keep = held_ == nullptr && padded.blocks() == 1;
+  std::atomic<bool> worn = false;
+  list.schedule().for_each_list(workers, [&](int k) {
+    if (worn) return;
+    if (k < padded.blocks()) {
+      moved2_[k] = largest_move2(state, k);
+      if (!(2.0 * std::sqrt(moved2_[k]) <= options.skin)) {
+        worn = true;
+        return;
+      }
+      if (!add_shell(state, k, keep)) unhealthy = true;
+    }
+    double moved2 = 0.0;
+    for (const int block : list.entries(k).blocks) moved2 = std::max(moved2, moved2_[block]);
+    list.age(k, std::sqrt(moved2));
+    add_contacts(k);
+  });
+  return !worn;
+}
+
+/// A new list needs all segments first.
+void TissueGradient::add_by_new_list(const StateView& state, std::atomic<bool>& unhealthy) {
+  workers.for_each(padded.blocks(), [&](int block) {
+    if (!add_shell(state, block, true)) unhealthy = true;
+  });
+  if (unhealthy) return;
+  rebuild(state);
+  list.schedule().for_each_list(workers, [&](int k) { add_contacts(k); });
+}
+
+/// Shells and contacts.
 bool TissueGradient::add_cells(const StateView& state) {
-  const double moved = largest_move(state);
-  const bool worn = rebuilds == 0 || !(2.0 * moved <= options.skin);
-  // A new list reads segments; so does the linearisation of an implicit step, which makes those of a large tissue anew.
-  const bool keep = worn || (held_ == nullptr && padded.blocks() == 1);
   std::atomic<bool> unhealthy = false;
-  const auto shell = [&](int block) {
-    if (!add_shell(state, block, keep)) unhealthy = true;
-  };
-  if (worn) {
-    workers.for_each(padded.blocks(), shell);
-    if (!unhealthy) rebuild(state);
-  } else {
-    list.age(moved);
+  if (!add_by_old_list(state, unhealthy)) {
+    unhealthy = false;
+    add_by_new_list(state, unhealthy);
   }
-  if (!unhealthy)
-    list.schedule().for_each_list(workers, [&](int k) {
-      if (!worn && k < padded.blocks()) shell(k);
-      const ContactList::Entries& entries = list.entries(k);
-      kernel.contact_gradient(padded.shell, contact, entries.groups.data(), list.active(k), entries.self_pairs.data(),
-                              entries.self_pairs.size());
-    });
   if (unhealthy) explain_unhealthy(state);
   return !unhealthy;
 }

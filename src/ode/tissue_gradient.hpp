@@ -69,7 +69,11 @@ class TissueGradient {
   bool add_cells(const StateView& state);
   /// keep: segments and angles stay in the padded arrays.
   bool add_shell(const StateView& state, int block, bool keep);
-  double largest_move(const StateView& state);
+  double largest_move2(const StateView& state, int block) const;
+  void add_contacts(int list);
+  /// False if somebody has moved too far for the list; what has been added is void then.
+  bool add_by_old_list(const StateView& state, std::atomic<bool>& unhealthy);
+  void add_by_new_list(const StateView& state, std::atomic<bool>& unhealthy);
   void add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
   void explain_unhealthy(const StateView& state);
   void explain_infinite(std::span<const double> gx, std::span<const double> gy);

@@ -1,6 +1,7 @@
 // A tissue large enough to be divided: the same bits for every number of threads, and the numbers of an undivided one.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <numeric>
 #include <random>
@@ -123,6 +124,25 @@ TEST_CASE("a divided tissue has the forces of an undivided one", "[property][thr
   padded.pack_gradient(whole, whole_y);
   CHECK(largest_difference(whole, std::span(gradient).first(whole.size())) < 1e-12 * largest(whole));
   CHECK(largest(whole) > 1.0);
+}
+
+TEST_CASE("lists are as old as the cells they are about", "[property][threads]") {
+  const TissueState state = large_tissue();
+  std::vector<double> moved(state.values), before(moved.size()), by_old_list(moved.size()), by_new_list(moved.size());
+  std::mt19937 engine(4);
+  const StateLayout layout = state.layout();
+  for (int cell = 300; cell < 340; ++cell) {  // as far as a list bears, the others stay where they are
+    const double angle = 1e-9 * static_cast<double>(engine());
+    for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v)
+      moved[layout.x(v)] += 0.499 * skin * std::cos(angle), moved[layout.y(v)] += 0.499 * skin * std::sin(angle);
+  }
+  TissueOde worn(state.tissue, 0, options(2), {}), fresh(state.tissue, 0, options(2), {});
+  REQUIRE(worn.rate(0.0, state.values, before) == Evaluation::ok);
+  REQUIRE(worn.rate(0.0, moved, by_old_list) == Evaluation::ok);
+  REQUIRE(worn.list_rebuilds() == 1);
+  REQUIRE(fresh.rate(0.0, moved, by_new_list) == Evaluation::ok);
+  CHECK(largest_difference(by_old_list, by_new_list) < 1e-11 * largest(by_new_list));
+  CHECK(largest_difference(by_old_list, before) > 1e-3 * largest(by_new_list));
 }
 
 TEST_CASE("divided lists hold the whole contact list, each what it may touch", "[property][threads]") {

@@ -170,6 +170,6 @@ TEST_CASE("groups hold every window once, nearer bands first, in their order wit
   for (int bands = 1; bands <= ContactList::bands; ++bands)
     CHECK(groups.windows(bands) == static_cast<std::size_t>(std::count_if(expected.begin(), expected.end(), [&](const auto& w) { return w.band < bands; })));
   CHECK(list.active(0) == groups.windows(1));
-  list.age(0.2);
+  list.age(0, 0.2);
   CHECK(list.active(0) == groups.windows());
 }
