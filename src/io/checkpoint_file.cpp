@@ -15,7 +15,7 @@ namespace suture {
 namespace {
 
 constexpr std::uint64_t mark = 0x5043455255545553;  // "SUTURECP"
-constexpr std::uint64_t version = 2;
+constexpr std::uint64_t version = 3;
 constexpr std::size_t head_size = 24, tail_size = 8;
 
 void append_number(std::string& out, std::uint64_t value) { out.append(reinterpret_cast<const char*>(&value), sizeof value); }

@@ -14,13 +14,14 @@ double squared(double x) { return x * x; }
 
 }  // namespace
 
-void BoundaryPieces::evaluate(const Tissue& tissue, const SegmentGrid& grid, const Exposure& exposure, double rho) {
-  tissue_ = &tissue, grid_ = &grid, exposure_ = &exposure, rho_ = rho;
+void BoundaryPieces::evaluate(const Tissue& tissue, const SegmentGrid& grid, const Exposure& exposure, std::span<const char> watched,
+                              double rho) {
+  tissue_ = &tissue, grid_ = &grid, exposure_ = &exposure, watched_ = watched, rho_ = rho;
   pieces_.clear();
   begin_.assign(1, 0);
   for (int v = 0; v < tissue.vertex_count(); ++v) {
-    add_arc(v);
-    add_line(v);
+    if (watches(v)) add_arc(v);
+    if (watches_segment(v)) add_line(v);
     begin_.push_back(static_cast<int>(pieces_.size()));
   }
   squared_gap_ = 0.0;
@@ -187,23 +188,35 @@ void BoundaryPieces::link_cuts() {
   }
 }
 
-/// Where three thickened segments meet in a point, rounding may have removed the piece that was expected; there are as
-/// many open ends as open starts, so the nearest pairs close every loop.
+bool BoundaryPieces::ends_unwatched(const Piece& piece) const {
+  if (piece.high_cut >= 0) return !watches_segment(piece.high_cut);
+  return piece.arc ? !watches_segment(piece.feature) : !watches(tissue_->next(piece.feature));
+}
+
+bool BoundaryPieces::starts_unwatched(const Piece& piece) const {
+  if (piece.low_cut >= 0) return !watches_segment(piece.low_cut);
+  return piece.arc ? !watches_segment(tissue_->previous(piece.feature)) : !watches(piece.feature);
+}
+
+/// Where three thickened segments meet in a point, rounding may have removed the piece that was expected. Where all is watched there are
+/// as many open ends as open starts, so the nearest pairs close every loop; otherwise what is far apart may have its partner elsewhere.
 void BoundaryPieces::link_leftovers() {
+  const double farthest = watched_.empty() ? infinity : squared(1e-3 * rho_);
   open_ends_.clear();
   open_starts_.clear();
   for (int i = 0; i < static_cast<int>(pieces_.size()); ++i) {
-    if (pieces_[i].next < 0) open_ends_.push_back(i);
-    if (pieces_[i].previous < 0) open_starts_.push_back(i);
+    if (pieces_[i].next < 0 && !ends_unwatched(pieces_[i])) open_ends_.push_back(i);
+    if (pieces_[i].previous < 0 && !starts_unwatched(pieces_[i])) open_starts_.push_back(i);
   }
   while (!open_ends_.empty()) {
-    double least = infinity;
+    double least = farthest;
     int end = -1, start = -1;
     for (const int e : open_ends_) {
       const double before = least;
       for (const int s : open_starts_) try_start(e, s, least, start);
       if (least < before) end = e;
     }
+    if (end < 0) return;
     join(end, start);
     std::erase(open_ends_, end);
     std::erase(open_starts_, start);

@@ -17,13 +17,15 @@ struct Piece {
   double low, high;
   int low_cut, high_cut;  ///< the segments that cut it; -1 where it joins its neighbour along the membrane
   Point start, end;
-  int next = -1, previous = -1;
+  int next = -1, previous = -1;  ///< -1 for good where what it joins is not watched
 };
 
 class BoundaryPieces {
  public:
-  /// Collects and links. The grid, exposure (probe_disc) and tissue must belong together.
-  void evaluate(const Tissue& tissue, const SegmentGrid& grid, const Exposure& exposure, double rho);
+  /// Collects and links. The grid, exposure (probe_disc) and tissue must belong together. watched: one flag per vertex, empty for
+  /// all; arcs about other vertices and lines along segments that have such an end are not collected, and what they would join
+  /// stays open.
+  void evaluate(const Tissue& tissue, const SegmentGrid& grid, const Exposure& exposure, std::span<const char> watched, double rho);
 
   std::span<const Piece> pieces() const { return pieces_; }
   double largest_gap() const { return std::sqrt(squared_gap_); }
@@ -44,12 +46,18 @@ class BoundaryPieces {
   void link_along_membrane();
   void link_cuts();
   void link_leftovers();
+  bool watches(int vertex) const { return watched_.empty() || watched_[vertex] != 0; }
+  bool watches_segment(int segment) const { return watches(segment) && watches(tissue_->next(segment)); }
+  /// Whether what the piece joins may not have been collected.
+  bool ends_unwatched(const Piece& piece) const;
+  bool starts_unwatched(const Piece& piece) const;
   void try_start(int end, int candidate, double& least, int& best) const;
   void join(int end, int start);
 
   const Tissue* tissue_ = nullptr;
   const SegmentGrid* grid_ = nullptr;
   const Exposure* exposure_ = nullptr;
+  std::span<const char> watched_;
   double rho_ = 0.0, squared_gap_ = 0.0;
   Uncovered uncovered_;
   std::vector<Piece> pieces_;

@@ -49,9 +49,9 @@ class DiscTest {
     squared_limit_ = radius_ * radius_ * (1.0 - rounding);
   }
 
-  void run() {
+  void run(std::span<const char> watched) {
     int hint = -1;
-    for (int v = 0; v < tissue_.vertex_count(); ++v) hint = test(v, hint);
+    for (int v = 0; v < tissue_.vertex_count(); ++v) hint = watched.empty() || watched[v] ? test(v, hint) : -1;
   }
 
  private:
@@ -109,11 +109,11 @@ class DiscTest {
 }  // namespace
 
 void measure_exposure(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, const Membrane& membrane,
-                      ExposureRule rule, Exposure& out) {
-  out.exposed.resize(tissue.vertex_count());
-  out.margin.resize(tissue.vertex_count());
-  out.blocker.resize(tissue.vertex_count());
-  DiscTest(tissue, state, grid, membrane, rule, out).run();
+                      ExposureRule rule, std::span<const char> watched, Exposure& out) {
+  out.exposed.assign(tissue.vertex_count(), 0);
+  out.margin.assign(tissue.vertex_count(), 0.0);
+  out.blocker.assign(tissue.vertex_count(), -1);
+  DiscTest(tissue, state, grid, membrane, rule, out).run(watched);
 }
 
 struct ExposureMeasure::Impl {
@@ -134,7 +134,7 @@ ExposureMeasure& ExposureMeasure::operator=(ExposureMeasure&&) noexcept = defaul
 
 const Exposure& ExposureMeasure::operator()(const Tissue& tissue, const StateView& state) {
   impl_->grid.build(tissue, state, grid_bucket_size(impl_->membrane));
-  measure_exposure(tissue, state, impl_->grid, impl_->membrane, impl_->rule, impl_->result);
+  measure_exposure(tissue, state, impl_->grid, impl_->membrane, impl_->rule, {}, impl_->result);
   return impl_->result;
 }
 

@@ -15,7 +15,8 @@ Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, do
 /// Whether p lies inside a cell other than own_cell (-1: any cell).
 bool inside_other_cell(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, int own_cell, Point p);
 
+/// watched: one flag per vertex; the others count as neither exposed nor blocked, with margin 0. Empty: all are watched.
 void measure_exposure(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, const Membrane& membrane,
-                      ExposureRule rule, Exposure& out);
+                      ExposureRule rule, std::span<const char> watched, Exposure& out);
 
 }  // namespace suture

@@ -13,6 +13,8 @@ namespace {
 
 double cross(Point o, Point a, Point b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
 
+constexpr int left_out = -2;  // instead of the number of a loop: a chain that is not closed
+
 /// Where an exposed vertex stands on the boundary: on a piece, or `step` vertices past its end (before its start).
 struct Place {
   int loop, order;
@@ -27,6 +29,7 @@ struct FreeBoundary::Impl {
   Membrane membrane;
   double rho = 0.0;  ///< probe radius in use
   SegmentGrid grid;
+  std::vector<char> watched;  // empty: all
   Exposure exposure;
   BoundaryPieces boundary;
   std::vector<BoundaryLoop> loops;
@@ -34,6 +37,8 @@ struct FreeBoundary::Impl {
   std::vector<Place> places;
 
   void link(const Tissue& tissue);
+  void watch(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within);
+  void leave_out_chains();
   void trace(const Tissue& tissue, const StateView& state);
   void add_to_loop(BoundaryLoop& loop, const Piece& piece, Point origin);
   void place_vertices(const Tissue& tissue);
@@ -71,11 +76,25 @@ void FreeBoundary::Impl::link(const Tissue& tissue) {
   constexpr double rounding = 1e-6, enlargement = 1e-9;
   constexpr int attempts = 3;
   rho = membrane.probe_radius();
-  boundary.evaluate(tissue, grid, exposure, rho);
+  boundary.evaluate(tissue, grid, exposure, watched, rho);
   for (int i = 1; i < attempts && boundary.largest_gap() > rounding * rho; ++i) {
     rho = membrane.probe_radius() * (1.0 + i * enlargement);
-    boundary.evaluate(tissue, grid, exposure, rho);
+    boundary.evaluate(tissue, grid, exposure, watched, rho);
   }
+}
+
+void FreeBoundary::Impl::watch(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within) {
+  watched.clear();
+  if (!within) return;
+  for (int v = 0; v < tissue.vertex_count(); ++v)
+    watched.push_back(state.x[v] >= within->x_low && state.x[v] <= within->x_high && state.y[v] >= within->y_low && state.y[v] <= within->y_high);
+}
+
+void FreeBoundary::Impl::leave_out_chains() {
+  const std::span<const Piece> pieces = boundary.pieces();
+  for (int first = 0; first < static_cast<int>(pieces.size()); ++first)
+    if (pieces[first].previous < 0)
+      for (int i = first; i >= 0; i = pieces[i].next) loop_of[i] = left_out;
 }
 
 void FreeBoundary::Impl::trace(const Tissue& tissue, const StateView& state) {
@@ -83,8 +102,9 @@ void FreeBoundary::Impl::trace(const Tissue& tissue, const StateView& state) {
   loops.clear();
   loop_of.assign(pieces.size(), -1);
   order_of.resize(pieces.size());
+  leave_out_chains();
   for (int first = 0; first < static_cast<int>(pieces.size()); ++first) {
-    if (loop_of[first] >= 0) continue;
+    if (loop_of[first] != -1) continue;
     BoundaryLoop loop;
     loop.inside_probe = pieces[first].start;
     int order = 0;
@@ -162,6 +182,7 @@ void FreeBoundary::Impl::place_vertices(const Tissue& tissue) {
     else if (const Piece* next = piece_after(tissue, v, step); next && reaches(next->start, p))
       places.push_back(at(*next, next->low, step, v));
   }
+  std::erase_if(places, [](const Place& place) { return place.loop == left_out; });
   std::sort(places.begin(), places.end());
   for (const Place& place : places) loops[place.loop].vertices.push_back(place.vertex);
 }
@@ -180,9 +201,10 @@ void FreeBoundary::evaluate(const Tissue& tissue, const StateView& state) {
   trace(tissue, state);
 }
 
-void FreeBoundary::expose(const Tissue& tissue, const StateView& state) {
+void FreeBoundary::expose(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within) {
   impl_->grid.build(tissue, state, grid_bucket_size(impl_->membrane));
-  measure_exposure(tissue, state, impl_->grid, impl_->membrane, ExposureRule::probe_disc, impl_->exposure);
+  impl_->watch(tissue, state, within);
+  measure_exposure(tissue, state, impl_->grid, impl_->membrane, ExposureRule::probe_disc, impl_->watched, impl_->exposure);
 }
 
 void FreeBoundary::trace(const Tissue& tissue, const StateView& state) {
@@ -199,6 +221,19 @@ void FreeBoundary::trace(const Tissue& tissue, const StateView& state) {
 const Membrane& FreeBoundary::membrane() const { return impl_->membrane; }
 std::span<const BoundaryLoop> FreeBoundary::loops() const { return impl_->loops; }
 const Exposure& FreeBoundary::exposure() const { return impl_->exposure; }
+bool FreeBoundary::left_out_meets(const BoundingBox& box) const {
+  const std::span<const Piece> pieces = impl_->boundary.pieces();
+  const double reach = impl_->rho;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const auto [x, x_end] = std::minmax(pieces[k].start.x, pieces[k].end.x);
+    const auto [y, y_end] = std::minmax(pieces[k].start.y, pieces[k].end.y);
+    if (impl_->loop_of[k] == left_out && x - reach <= box.x_high && x_end + reach >= box.x_low && y - reach <= box.y_high &&
+        y_end + reach >= box.y_low)
+      return true;
+  }
+  return false;
+}
+
 double FreeBoundary::largest_gap() const { return impl_->boundary.largest_gap(); }
 
 }  // namespace suture

@@ -102,8 +102,8 @@ WoundTracker::WoundTracker(const Membrane& membrane, ExposureRule rule) : bounda
   if (rule == ExposureRule::contact_free) strict_.emplace(membrane, rule);
 }
 
-const Exposure& WoundTracker::expose(const Tissue& tissue, const StateView& state) {
-  boundary_.expose(tissue, state);
+const Exposure& WoundTracker::expose(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within) {
+  boundary_.expose(tissue, state, within);
   return boundary_.exposure();
 }
 

@@ -27,13 +27,21 @@ void WoundNeighbourhood::look_at_all() {
   forget_part();
 }
 
-void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state, const BoundingBox& region) {
+/// The box is kept as long as it fits: what has been measured in it can be used again then.
+void WoundNeighbourhood::choose_region(const Wound& former) {
+  constexpr double least = 0.75, most = 1.5;  // margins
+  if (!cells_.empty() && lies_inside(around(former, least * margin_), region_) && lies_inside(region_, around(former, most * margin_))) return;
+  region_ = around(former, margin_);
+  is_exposed_ = false;
+}
+
+void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state) {
   chosen_.clear();
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
     const int first = tissue.first_vertex(cell), count = tissue.vertex_count(cell);
     const auto [left, right] = std::ranges::minmax(state.x.subspan(first, count));
     const auto [bottom, top] = std::ranges::minmax(state.y.subspan(first, count));
-    if (left <= region.x_high && right >= region.x_low && bottom <= region.y_high && top >= region.y_low) chosen_.push_back(cell);
+    if (left <= region_.x_high && right >= region_.x_low && bottom <= region_.y_high && top >= region_.y_low) chosen_.push_back(cell);
   }
   if (chosen_ == cells_) return;
   cells_.swap(chosen_);
@@ -70,7 +78,7 @@ StateView WoundNeighbourhood::gather(const StateView& state) {
 /// Exposure is a pure function of the part and its positions, so it is measured only when one of them has changed since the
 /// tracker did: captures look at the wound where a grid time has just looked at the exposure.
 const Exposure& WoundNeighbourhood::expose(const Tissue& watched, const StateView& positions) {
-  if (!is_exposed_) tracker_.expose(watched, positions);
+  if (!is_exposed_) tracker_.expose(watched, positions, cells_.empty() ? std::nullopt : std::optional(region_));
   is_exposed_ = !cells_.empty();  // the positions of the whole tissue are not kept
   return tracker_.boundary().exposure();
 }
@@ -88,16 +96,16 @@ void WoundNeighbourhood::look(const Tissue& tissue, const StateView& state) {
 
 const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, const StateView& state) {
   const std::optional<Wound> former = std::move(wound_);
-  BoundingBox region{};
   if (former) {
-    region = around(*former, margin_);
-    choose_cells(tissue, state, region);
+    choose_region(*former);
+    choose_cells(tissue, state);
   } else {
     look_at_all();
   }
   look(tissue, state);
-  if (!former) return wound_;
-  if (wound_ && lies_inside(around(*wound_, 0.5 * margin_), region)) return wound_;
+  if (cells_.empty()) return wound_;
+  if (wound_ && lies_inside(around(*wound_, 0.5 * margin_), region_) && !tracker_.boundary().left_out_meets(bounding_box(former->outline)))
+    return wound_;
   look_at_all();
   tracker_.follow(*former);
   look(tissue, state);

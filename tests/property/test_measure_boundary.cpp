@@ -1,8 +1,10 @@
 // Exposure and the free boundary against brute force and against each other, on random tissues.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <set>
 
 #include "support/wound_tissues.hpp"
@@ -120,6 +122,54 @@ TEST_CASE("the pieces of the free boundary always join into closed loops", "[pro
   }
   CHECK(loops > 500);
   CHECK(holes > 300);
+}
+
+TEST_CASE("in a box the same loops are found, bit for bit, but for those that leave it", "[property]") {
+  const Membrane m = default_membrane();
+  FreeBoundary whole(m), part(m);
+  int found = 0, vertices = 0, left_out = 0, hidden = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const TissueState state = random_tissue(seed);
+    const StateView view = state.view();
+    whole.evaluate(state.tissue, view);
+    std::mt19937 engine(seed);
+    std::uniform_real_distribution<double> edge(0.5, 4.0);
+    const BoundingBox box{-edge(engine), edge(engine), -edge(engine), edge(engine)};
+    part.expose(state.tissue, view, box);
+    part.trace(state.tissue, view);
+    CAPTURE(seed);
+    const auto inside = [&](const BoundingBox& b, double by) {
+      return b.x_low - by > box.x_low && b.x_high + by < box.x_high && b.y_low - by > box.y_low && b.y_high + by < box.y_high;
+    };
+    for (int v = 0; v < state.tissue.vertex_count(); ++v) {
+      const bool watched = inside({view.x[v], view.x[v], view.y[v], view.y[v]}, 0.0);
+      CHECK(part.exposure().exposed[v] == (watched && whole.exposure().exposed[v]));
+      hidden += !watched && whole.exposure().exposed[v];
+    }
+    const auto same = [](const BoundaryLoop& a, const BoundaryLoop& b) { return a.signed_area == b.signed_area && a.length == b.length; };
+    for (const BoundaryLoop& loop : part.loops())
+      CHECK(std::ranges::any_of(whole.loops(), [&](const BoundaryLoop& other) { return same(loop, other); }));
+    for (const BoundaryLoop& loop : whole.loops()) {
+      const BoundingBox around = bounding_box(loop.outline);
+      const auto there = std::ranges::find_if(part.loops(), [&](const BoundaryLoop& other) { return same(loop, other); });
+      constexpr double longest = 0.35;  // a segment here and the probe's radius
+      if (inside(around, longest)) {
+        REQUIRE(there != part.loops().end());
+        CHECK(there->vertices == loop.vertices);
+        ++found, vertices += static_cast<int>(loop.vertices.size());
+      } else if (there == part.loops().end() && std::ranges::any_of(loop.outline, [&](Point p) { return inside({p.x, p.x, p.y, p.y}, longest); })) {
+        CHECK(part.left_out_meets(box));
+        ++left_out;
+      }
+    }
+    whole.expose(state.tissue, view);
+    whole.trace(state.tissue, view);
+    CHECK_FALSE(whole.left_out_meets({-1e9, 1e9, -1e9, 1e9}));
+  }
+  CHECK(found > 100);
+  CHECK(vertices > 500);
+  CHECK(left_out > 50);
+  CHECK(hidden > 1000);
 }
 
 TEST_CASE("every loop keeps its distance from every cell", "[property]") {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,13 +41,17 @@ class FreeBoundary {
   /// Throws NumericalError for a coordinate that is not finite or a segment without length.
   void evaluate(const Tissue& tissue, const StateView& state);
   /// The two halves of evaluate(): after the first only exposure() is valid; the second is given the same tissue and state.
-  void expose(const Tissue& tissue, const StateView& state);
+  /// within: only vertices in this box and the segments between them are looked at. Other vertices count as not exposed, and loops
+  /// along other segments are left out; what is found is what would be found without a box.
+  void expose(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within = {});
   void trace(const Tissue& tissue, const StateView& state);
 
   const Membrane& membrane() const;
   /// Valid until the next evaluation, like everything below. Largest enclosed area first.
   std::span<const BoundaryLoop> loops() const;
   const Exposure& exposure() const;  ///< by probe_disc
+  /// Whether something of a loop that was left out comes within a probe's radius of this box.
+  bool left_out_meets(const BoundingBox& box) const;
   /// Largest distance between an end and the start it was linked to: rounding, about 1e-8, unless cells have been
   /// pushed through each other.
   double largest_gap() const;

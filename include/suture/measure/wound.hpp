@@ -56,7 +56,7 @@ class WoundTracker {
   /// Measures this configuration and makes it the previous one. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
   /// The two halves of update(), as those of FreeBoundary::evaluate.
-  const Exposure& expose(const Tissue& tissue, const StateView& state);
+  const Exposure& expose(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within = {});
   const std::optional<Wound>& update_exposed(const Tissue& tissue, const StateView& state);
 
   /// Makes this the previous configuration's wound.

@@ -10,17 +10,19 @@
 
 namespace suture {
 
-/// Only cells whose bounding box comes within `margin` of the box of the last wound's outline are looked at. When the wound
-/// is not found there, or its outline has come within half a margin of the edge of that region, the whole tissue is:
-/// a wound may move any distance between two updates. Results are those of WoundTracker and ExposureMeasure on the whole tissue.
+/// Only a box around a former outline of the wound is looked at, and for what covers membranes there the cells that come
+/// into it. When the wound is not found there, its outline has come within half of that distance of the edge of the box, or another
+/// boundary that leaves the box has come to the former wound, the whole tissue is: a wound may move any distance between two updates.
+/// Results are those of WoundTracker on the whole tissue, bit for bit unless that needs a larger probe (free_boundary.cpp).
 class WoundNeighbourhood {
  public:
-  /// margin: model units of length; by default a third of the diameter of a cell.
+  /// margin: how far the box goes beyond the outline, model units of length; by default a third of the diameter of a cell.
   explicit WoundNeighbourhood(const Membrane& membrane, double margin = 0.4);
 
   /// As WoundTracker::update, vertices numbered as in `tissue`. Throws NumericalError as FreeBoundary does.
   const std::optional<Wound>& update(const Tissue& tissue, const StateView& state);
-  /// One flag per vertex of `tissue`, by probe_disc; zero for cells that are not looked at, whose positions are not read.
+  /// One flag per vertex of `tissue`, by probe_disc; zero for those outside the box. Of cells that are not looked at positions are
+  /// not read.
   /// Valid until the next call.
   const std::vector<char>& exposed(const Tissue& tissue, const StateView& state);
   /// What exposed() would have given for the state of the last update(), which has found it on its way.
@@ -32,12 +34,13 @@ class WoundNeighbourhood {
   /// For checkpoints (byte_archive.hpp); what is made when it is needed is made again.
   template <class Archive>
   void fields(Archive& archive) {
-    archive(tracker_, cells_, wound_);
+    archive(tracker_, cells_, wound_, region_.x_low, region_.x_high, region_.y_low, region_.y_high);
     if constexpr (Archive::reading) forget_part();
   }
 
  private:
-  void choose_cells(const Tissue& tissue, const StateView& state, const BoundingBox& region);
+  void choose_region(const Wound& former);
+  void choose_cells(const Tissue& tissue, const StateView& state);
   void look_at_all();
   void forget_part() { part_.reset(), is_exposed_ = false; }
   void look(const Tissue& tissue, const StateView& state);
@@ -51,11 +54,12 @@ class WoundNeighbourhood {
 
   double margin_;
   WoundTracker tracker_;
-  std::vector<int> cells_, chosen_;  // that are looked at, empty: all; the next ones
+  BoundingBox region_{};             // that is looked at, while cells_ is not empty
+  std::vector<int> cells_, chosen_;  // that come into it, empty: all; the next ones
   std::optional<Tissue> part_;  // made of them when it is needed
   std::vector<int> vertex_;     // of the tissue, one per vertex of part_
   std::vector<double> x_, y_;
-  bool is_exposed_ = false;     // the tracker has the exposure of part_ at (x_, y_), bit for bit
+  bool is_exposed_ = false;     // the tracker has the exposure of part_ at (x_, y_) in region_, bit for bit
   std::optional<Wound> wound_;
   std::vector<char> exposed_;
 };
