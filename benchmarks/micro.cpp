@@ -112,6 +112,31 @@ void measure_rate(const Config& config, const TissueState& state, int repeats, R
   report.add(std::move(m));
 }
 
+/// What a rate costs while a wound closes (ring on, no events): the tissue is that of a run, the list as old as it is on the way. Another
+/// system follows the integrator's and is asked for a few rates at the end of each step.
+void measure_rate_in_use(const char* name, const Packed& problem, double horizon, Report& report) {
+  constexpr int calls = 4;
+  const TissueState state = with_ring(problem.config, problem.state);
+  const std::unique_ptr<TissueOde> ode = make_ode(problem.config, state), follower = make_ode(problem.config, state);
+  const std::unique_ptr<Integrator> integrator = make_integrator(*ode, with_tolerance(Method::rkc2, 1e-3, state), 0.0, state.values);
+  std::vector<double> out(state.values.size()), by_old_list, by_new_list;
+  while (integrator->time() < horizon) {
+    integrator->step(horizon);
+    for (int k = 0; k < calls; ++k) {
+      const long before = follower->list_rebuilds();
+      const double seconds = wall_seconds(1, [&] { require(follower->rate(integrator->time(), integrator->state(), out), *follower); });
+      (follower->list_rebuilds() > before ? by_new_list : by_old_list).push_back(seconds);
+    }
+  }
+  const double per_vertex = 1e9 / state.tissue.vertex_count(), rate = median(by_old_list) * per_vertex;
+  const double rates_per_list = static_cast<double>(integrator->statistics().rate_evaluations) / static_cast<double>(ode->list_rebuilds());
+  const double rebuild = median(by_new_list) * per_vertex - rate;
+  Measurement m{"rate", name, {}, {}};
+  m.parameters = {{"cells", state.tissue.cell_count()}, {"vertices", state.tissue.vertex_count()}, {"horizon", horizon}};
+  m.values = {{"rate_ns", rate}, {"rebuild_ns", rebuild}, {"rates_per_list", rates_per_list}, {"all_in_ns", rate + rebuild / rates_per_list}};
+  report.add(std::move(m));
+}
+
 }  // namespace
 
 void measure_rates(const Settings& settings, Report& report) {
@@ -120,6 +145,9 @@ void measure_rates(const Settings& settings, Report& report) {
   if (settings.long_runs) cells.push_back(99990);
   for (const int count : cells)
     measure_rate(patch.config, tiled(patch.state, count / patch.state.tissue.cell_count(), *patch.config.contact.distance), settings.repeats, report);
+  measure_rate_in_use("in use: embryo", wounded_tissue(settings.smoke), settings.smoke ? 0.5 : 20.0, report);
+  for (const int count : settings.smoke ? std::vector{100} : std::vector{450, 3330})
+    measure_rate_in_use("in use: honeycomb", honeycomb_with_wound(count, settings.smoke ? 12 : 30, settings.smoke ? 0.1 : 1.0), settings.smoke ? 0.1 : 10.0, report);
 }
 
 void measure_kernels(const Settings& settings, Report& report) {
