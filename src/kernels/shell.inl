@@ -19,26 +19,16 @@ SUTURE_INLINE Tension tension(bool relative, Double8 k, Double8 rest, Double8 b,
   return {k * over_rest * (ratio - 1.0), scale * (1.0 + b * (1.0 - 2.0 * ratio))};
 }
 
-/// Signed turning angle from (ex0, ey0) to (ex1, ey1), lengths l0, l1; in (-pi, pi].
-SUTURE_INLINE Double8 turning_angle(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, Double8 ey1, Double8 l1) {
+/// tan(theta/4) of the signed turning angle from (ex0, ey0) to (ex1, ey1), lengths l0, l1.
+SUTURE_INLINE Double8 quarter_tangent(Double8 ex0, Double8 ey0, Double8 l0, Double8 ex1, Double8 ey1, Double8 l1) {
   const Double8 cross = ex0 * ey1 - ey0 * ex1;
-  const Double8 dot = ex0 * ex1 + ey0 * ey1;
-  const Double8 d = l0 * l1 + dot;
+  const Double8 d = l0 * l1 + (ex0 * ex1 + ey0 * ey1);
   const Double8 h = d * d + cross * cross;
-  const Double8 w = cross * inverse(d + h * inverse_square_root(h));  // tan(theta/4)
-  Double8 angle = four_arctangents(w);
-  const unsigned large = bits(~(less(w, 0.4143) & less(-0.4143, w)));  // beyond a right angle, or degenerate
-  if (large != 0) [[unlikely]] {
-    double exact[lanes];
-    store(exact, angle);
-    for (unsigned m = large; m != 0; m &= m - 1) {
-      const int k = __builtin_ctz(m);
-      exact[k] = std::atan2(cross[k], dot[k]);
-    }
-    angle = load(exact);
-  }
-  return angle;
+  return cross * inverse(d + h * inverse_square_root(h));
 }
+
+/// Lanes whose angle is beyond a right one, or degenerate: the polynomial does not serve them.
+SUTURE_INLINE unsigned beyond_right_angle(Double8 quarter) { return bits(~(less(quarter, 0.4143) & less(-0.4143, quarter))); }
 
 /// vector(k) for vectors of eight that begin at k and cover 0 .. n-1, the last two overlapping; one(k) for n < 8.
 template <class Vector, class One>
@@ -86,11 +76,21 @@ inline void segments_and_area(const Shell& s, int cell) {
   for (double* a : {s.ex + b, s.ey + b, s.length + b}) a[-1] = a[n - 1];
 }
 
+/// Angles in (-pi, pi]. First all tangents, then the angles: one long chain of dependent operations per vector holds more of them
+/// waiting than the processor has room for.
 inline void turning_angles(const Shell& s, int cell) {
   const int b = s.base[cell] + 1, n = s.count[cell];
   for (int j = b; j < b + n; j += lanes)
-    store(s.theta + j, turning_angle(load(s.ex + j - 1), load(s.ey + j - 1), load(s.length + j - 1), load(s.ex + j),
-                                     load(s.ey + j), load(s.length + j)));
+    store(s.theta + j, quarter_tangent(load(s.ex + j - 1), load(s.ey + j - 1), load(s.length + j - 1), load(s.ex + j), load(s.ey + j),
+                                       load(s.length + j)));
+  for (int j = b; j < b + n; j += lanes) {
+    const Double8 quarter = load(s.theta + j);
+    store(s.theta + j, four_arctangents(quarter));
+    for (unsigned left = beyond_right_angle(quarter); left != 0; left &= left - 1) [[unlikely]] {
+      const int k = j + __builtin_ctz(left);
+      s.theta[k] = std::atan2(s.ex[k - 1] * s.ey[k] - s.ey[k - 1] * s.ex[k], s.ex[k - 1] * s.ex[k] + s.ey[k - 1] * s.ey[k]);
+    }
+  }
   s.theta[b + n] = s.theta[b];
 }
 
