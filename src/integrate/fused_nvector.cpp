@@ -26,7 +26,11 @@ struct Content {
 };
 
 Content& content(N_Vector v) { return *static_cast<Content*>(v->content); }
-double* data(N_Vector v) { return content(v).data; }
+/// What is there when all that was asked for is done.
+double* data(N_Vector v) {
+  content(v).family->settle();
+  return content(v).data;
+}
 std::size_t padded(N_Vector v) { return content(v).padded; }
 const VectorOperations& operations(N_Vector v) { return content(v).family->operations; }
 
@@ -41,23 +45,29 @@ void each(N_Vector z, F f) {
 N_Vector clone(N_Vector v) { return make_fused_vector(content(v).size, v->sunctx, content(v).family); }
 
 void destroy(N_Vector v) {
+  content(v).family->settle();
   std::erase(content(v).family->members, v);
   delete static_cast<Content*>(v->content);
   v->content = nullptr;
   N_VFreeEmpty(v);
 }
 
+/// Of members of one family it may wait.
+void add(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+  VectorFamily& family = *content(z).family;
+  bool others = false;
+  for (N_Vector v : {x, y})
+    if (v != nullptr && content(v).family.get() != &family) others = true, content(v).family->settle();
+  family.add({a, content(x).data, b, y != nullptr ? content(y).data : nullptr, content(z).data}, padded(z));
+  if (others) family.settle();
+}
+
 void fill_standard_operations(N_Vector_Ops ops) {
-  ops->nvlinearsum = [](double a, N_Vector x, double b, N_Vector y, N_Vector z) {
-    operations(z).linear_sum(padded(z), a, data(x), b, data(y), data(z));
-  };
+  ops->nvlinearsum = add;
   ops->nvconst = [](double c, N_Vector z) { each(z, [c](auto) { return c; }); };
   ops->nvprod = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] * b[k]; }); };
   ops->nvdiv = [](N_Vector x, N_Vector y, N_Vector z) { each(z, [a = data(x), b = data(y)](auto k) { return a[k] / b[k]; }); };
-  ops->nvscale = [](double c, N_Vector x, N_Vector z) {
-    const double* const a = data(x);
-    operations(z).linear_combination(padded(z), 1, &c, &a, data(z));
-  };
+  ops->nvscale = [](double c, N_Vector x, N_Vector z) { add(c, x, 0.0, nullptr, z); };
   ops->nvabs = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return std::abs(a[k]); }); };
   ops->nvinv = [](N_Vector x, N_Vector z) { each(z, [a = data(x)](auto k) { return 1.0 / a[k]; }); };
   ops->nvaddconst = [](N_Vector x, double b, N_Vector z) { each(z, [a = data(x), b](auto k) { return a[k] + b; }); };
@@ -112,7 +122,20 @@ N_Vector make_fused_vector(std::size_t n, SUNContext context, std::shared_ptr<Ve
 
 std::span<double> values(N_Vector v) { return {data(v), content(v).size}; }
 
+void VectorFamily::add(const LinearSum& sum, std::size_t padded_size) {
+  if (waiting_.size() == most_waiting) settle();
+  waiting_.push_back(sum);
+  padded_size_ = padded_size;
+}
+
+void VectorFamily::settle() {
+  if (waiting_.empty()) return;
+  operations.linear_sums(padded_size_, waiting_);
+  waiting_.clear();
+}
+
 void VectorFamily::rearrange(std::span<const int> source) {
+  settle();
   struct Run {
     std::size_t to;
     int from;

@@ -5,12 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 
 #include "kernels/kernels.hpp"
 #include "threads/ranges.hpp"
 #include "threads/worker_pool.hpp"
 
 namespace suture {
+
+/// z = a x + b y; z = a x without y. z may be x or y.
+struct LinearSum {
+  double a;
+  const double* x;
+  double b;
+  const double* y;
+  double* z;
+};
 
 class VectorOperations {
  public:
@@ -65,6 +75,15 @@ class VectorOperations {
   void linear_sum(std::size_t n, double a, const double* x, double b, const double* y, double* z) const {
     for_each_range(n, [&](Range r) { kernel_->linear_sum(r.end - r.begin, a, x + r.begin, b, y + r.begin, z + r.begin); });
   }
+  /// One after the other, but a piece of all vectors at a time that stays in the first-level cache.
+  void linear_sums(std::size_t n, std::span<const LinearSum> sums) const {
+    constexpr std::size_t piece = 512;
+    const std::size_t length = sums.size() > 1 ? piece : std::max<std::size_t>(n, 1);
+    for_each_range(n, [&](Range r) {
+      for (std::size_t k = r.begin; k < r.end; k += length)
+        for (const LinearSum& s : sums) add_up(s, k, std::min(length, r.end - k));
+    });
+  }
   /// count <= most_vectors, here and below.
   void linear_combination(std::size_t n, int count, const double* c, const double* const* x, double* z) const {
     for_each_range(n, [&](Range r) {
@@ -79,6 +98,13 @@ class VectorOperations {
   }
 
  private:
+  void add_up(const LinearSum& s, std::size_t k, std::size_t n) const {
+    const double* const x = s.x + k;
+    if (s.y != nullptr)
+      kernel_->linear_sum(n, s.a, x, s.b, s.y + k, s.z + k);
+    else
+      kernel_->linear_combination(n, 1, &s.a, &x, s.z + k);
+  }
   template <class Pointer>
   static std::array<Pointer, most_vectors> shifted(int count, const Pointer* x, std::size_t by) {
     std::array<Pointer, most_vectors> p{};

@@ -1,6 +1,8 @@
 // Our N_Vector against plain loops, through the interface CVODE uses.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "integrate/fused_nvector.hpp"
 
@@ -91,5 +93,54 @@ TEST_CASE("fused operations equal plain loops, in place too", "[unit]") {
     double ones[17];
     for (int j = 0; j < 17; ++j) many[j] = f.y, ones[j] = 1.0;
     CHECK(N_VLinearCombination(17, ones, many, f.z) != 0);  // refused, not overrun
+  }
+}
+
+TEST_CASE("sums that wait have the bits of sums made at once", "[unit]") {
+  for (const std::size_t n : {7, 512, 1300, 2048}) {
+    CAPTURE(n);
+    SUNContext context = nullptr;
+    SUNContext_Create(nullptr, &context);
+    const auto family = std::make_shared<VectorFamily>();
+    constexpr int count = 5;
+    std::vector<N_Vector> zn;
+    std::vector<std::vector<double>> expected(count, std::vector<double>(n));
+    for (int j = 0; j < count; ++j) {
+      zn.push_back(make_fused_vector(n, context, family));
+      for (std::size_t k = 0; k < n; ++k) values(zn[j])[k] = expected[j][k] = std::sin(k + 10.0 * j);
+    }
+    const auto same = [&](int j) {
+      const std::span<const double> v = values(zn[j]);
+      return std::equal(v.begin(), v.end(), expected[j].begin());
+    };
+    double scale = 0.7;
+    for (int j = 1; j < count; ++j, scale *= 0.7) {  // as CVODE changes its step
+      N_VScale(scale, zn[j], zn[j]);
+      for (double& e : expected[j]) e = scale * e;
+    }
+    for (int again = 0; again < 4; ++again)  // and predicts: more sums than may wait
+      for (int low = 1; low < count; ++low)
+        for (int j = count - 1; j >= low; --j) {
+          N_VLinearSum(1.0, zn[j - 1], 1.0, zn[j], zn[j - 1]);
+          for (std::size_t k = 0; k < n; ++k) expected[j - 1][k] += expected[j][k];
+        }
+    for (int j = 0; j < count; ++j) CHECK(same(j));
+    // Whoever writes a vector that a sum reads, or frees it, has that made first.
+    N_VLinearSum(1.0, zn[0], 1.0, zn[1], zn[2]);
+    for (std::size_t k = 0; k < n; ++k) expected[2][k] = expected[0][k] + expected[1][k];
+    values(zn[0])[0] = expected[0][0] = 3.0;
+    CHECK(same(2));
+    N_VLinearSum(1.0, zn[0], 1.0, zn[1], zn[3]);
+    for (std::size_t k = 0; k < n; ++k) expected[3][k] = expected[0][k] + expected[1][k];
+    N_VConst(5.0, zn[1]);
+    N_VDestroy(zn[0]);
+    CHECK(same(3));
+    N_VScale(2.0, zn[1], zn[2]);
+    std::vector<int> source(n + 9, 0);
+    family->rearrange(source);
+    CHECK(values(zn[2]).size() == n + 9);
+    CHECK(values(zn[2])[n + 8] == 10.0);
+    for (int j = 1; j < count; ++j) N_VDestroy(zn[j]);
+    SUNContext_Free(&context);
   }
 }
