@@ -37,6 +37,7 @@ struct FreeBoundary::Impl {
   std::vector<Place> places;
 
   void link(const Tissue& tissue);
+  std::optional<BoundingBox> reach_of(const std::optional<BoundingBox>& within) const;
   void watch(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within);
   void leave_out_chains();
   void trace(const Tissue& tissue, const StateView& state);
@@ -81,6 +82,13 @@ void FreeBoundary::Impl::link(const Tissue& tissue) {
     rho = membrane.probe_radius() * (1.0 + i * enlargement);
     boundary.evaluate(tissue, grid, exposure, watched, rho);
   }
+}
+
+/// Where segments can cover something that is watched: discs touch vertices, arcs and lines are a probe's radius from the membrane.
+std::optional<BoundingBox> FreeBoundary::Impl::reach_of(const std::optional<BoundingBox>& within) const {
+  if (!within) return within;
+  const double reach = 4.0 * membrane.probe_radius();  // an arc of up to half a circle, whose middle is one from its vertex
+  return BoundingBox{within->x_low - reach, within->x_high + reach, within->y_low - reach, within->y_high + reach};
 }
 
 void FreeBoundary::Impl::watch(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within) {
@@ -202,7 +210,7 @@ void FreeBoundary::evaluate(const Tissue& tissue, const StateView& state) {
 }
 
 void FreeBoundary::expose(const Tissue& tissue, const StateView& state, const std::optional<BoundingBox>& within) {
-  impl_->grid.build(tissue, state, grid_bucket_size(impl_->membrane));
+  impl_->grid.build(tissue, state, grid_bucket_size(impl_->membrane), impl_->reach_of(within));
   impl_->watch(tissue, state, within);
   measure_exposure(tissue, state, impl_->grid, impl_->membrane, ExposureRule::probe_disc, impl_->watched, impl_->exposure);
 }

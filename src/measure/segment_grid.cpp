@@ -70,7 +70,7 @@ void SegmentGrid::build_unsorted(const Tissue& tissue, const StateView& state) {
   sort_boxes();
 }
 
-void SegmentGrid::build(const Tissue& tissue, const StateView& state, double bucket_size) {
+void SegmentGrid::build(const Tissue& tissue, const StateView& state, double bucket_size, const std::optional<BoundingBox>& within) {
   build_unsorted(tissue, state);
   choose_buckets(bucket_size);
   start_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
@@ -79,6 +79,9 @@ void SegmentGrid::build(const Tissue& tissue, const StateView& state, double buc
   // A segment is filed under points at most a bucket apart, so each of its points is within half a bucket of one.
   for (int v = 0; v < static_cast<int>(segments_.size()); ++v) {
     const MembraneSegment& s = segments_[v];
+    if (within && (std::max(s.ax, s.bx()) < within->x_low || std::min(s.ax, s.bx()) > within->x_high ||
+                   std::max(s.ay, s.by()) < within->y_low || std::min(s.ay, s.by()) > within->y_high))
+      continue;
     const int pieces = std::max(1, static_cast<int>(std::ceil(s.length * inverse_bucket_)));
     for (int i = 0; i < pieces; ++i) {
       const double t = s.length * (i + 0.5) / pieces;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "suture/measure/polygon.hpp"
@@ -27,9 +28,9 @@ struct MembraneSegment {
 
 class SegmentGrid {
  public:
-  /// Keeps its memory between calls. Throws NumericalError for a coordinate that is not finite or a segment without
-  /// length.
-  void build(const Tissue& tissue, const StateView& state, double bucket_size);
+  /// Keeps its memory between calls. within: segments that have no point in this box need not be visited. Throws NumericalError for a
+  /// coordinate that is not finite or a segment without length.
+  void build(const Tissue& tissue, const StateView& state, double bucket_size, const std::optional<BoundingBox>& within = {});
   /// Segments and boxes without buckets: everything but visit_near.
   void build_unsorted(const Tissue& tissue, const StateView& state);
 

@@ -37,6 +37,14 @@ Wound make_wound(const FreeBoundary& boundary, const BoundaryLoop& hole) {
   return wound;
 }
 
+/// Whether one of a few points of the loop lies inside the wound: a wound that closes has most of its outline inside the former one.
+bool begins_inside(const BoundaryLoop& loop, const Wound& wound) {
+  const std::size_t n = loop.outline.size(), step = std::max<std::size_t>(n / 8, 1);
+  for (std::size_t k = 0; k < n; k += step)
+    if (contains(wound.outline, loop.outline[k])) return true;
+  return false;
+}
+
 bool boxes_meet(const BoundingBox& a, const BoundingBox& b) {
   return a.x_low <= b.x_high && b.x_low <= a.x_high && a.y_low <= b.y_high && b.y_low <= a.y_high;
 }
@@ -68,8 +76,8 @@ std::optional<Wound> find_wound(const FreeBoundary& boundary, const Wound* previ
   for (const BoundaryLoop& loop : boundary.loops()) {
     if (!candidate(loop)) continue;
     double merit = -loop.signed_area;
-    // One that begins inside the previous wound overlaps it; how much does not matter if no other does.
-    if (previous && !(contains(previous->outline, loop.outline.front()) && alone(loop))) merit = overlap_area(loop.outline, previous->outline);
+    // One that has a point inside the previous wound overlaps it; how much does not matter if no other does.
+    if (previous && !(begins_inside(loop, *previous) && alone(loop))) merit = overlap_area(loop.outline, previous->outline);
     if (!(merit > 0.0)) continue;
     if (previous || !chosen) {
       ++parts;
