@@ -36,6 +36,7 @@ class CvodeIntegrator final : public Integrator {
   double last_step() const override { return last_step_; }
   int last_order() const override;
   void interpolate(double t, std::span<double> y) const override;
+  void interpolate_some(double t, std::span<const int> components, std::span<double> y) const override;
   void resume(double t, std::span<const double> y, std::span<const int> source) override;
   Statistics statistics() const override;
 
@@ -247,6 +248,12 @@ int CvodeIntegrator::last_order() const {
 void CvodeIntegrator::interpolate(double t, std::span<double> y) const {
   check(CVodeGetDky(cvode_, t - offset_, 0, interpolated_), "CVodeGetDky");
   std::copy_n(values(interpolated_).begin(), y.size(), y.begin());
+}
+
+void CvodeIntegrator::interpolate_some(double t, std::span<const int> components, std::span<double> y) const {
+  check(CVodeGetDky(cvode_, t - offset_, 0, interpolated_), "CVodeGetDky");
+  const std::span<const double> all = values(interpolated_);
+  for (const int k : components) y[k] = all[k];
 }
 
 /// The steps behind the event stay CVODE's past: the solution and, for most components, its rate are continuous there.

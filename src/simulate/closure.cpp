@@ -165,7 +165,8 @@ TissueState Closure::state_at(double t) const {
 }
 
 void Closure::sample(double t) {
-  const TissueState state = t == state_.time ? state_ : state_at(t);
+  const std::optional<TissueState> between = t == state_.time ? std::nullopt : std::optional(state_at(t));
+  const TissueState& state = between ? *between : state_;
   const std::optional<Wound>& wound = sampled_wound_.update(state.tissue, state.view());
   observer_.sample({.state = state,
                     .wound = wound,
