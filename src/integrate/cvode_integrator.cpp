@@ -66,7 +66,7 @@ class CvodeIntegrator final : public Integrator {
   double offset_ = 0.0;  // time - CVODE's time: CVODE cannot step back to an event inside its last step
   std::int64_t rates_ = 0;
   std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
-  std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
+  std::vector<WorstComponent> unconverged_;  // of MinimisingNewton::obstacle of the last failed solve
   bool history_known_ = false;  // where CVODE keeps its past has been found at the last event
   EventStep event_step_{2.0};
   double first_step_ = 0.0;  // at most, when an event has just been passed
@@ -81,8 +81,7 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
                        .largest_move = options.largest_move,
                        .always_set_up = options.linear_solver == LinearSolver::sparse_direct}),
       family_(std::make_shared<VectorFamily>(system.workers())),
-      time_(t),
-      unconverged_(y.size()) {
+      time_(t) {
   system.choose_linear_solver(options.linear_solver);
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
   y_ = make_fused_vector(y.size(), context_, family_);
@@ -167,7 +166,7 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   const double ratio = std::sqrt(static_cast<double>(out.size()) / static_cast<double>(n));
   const NewtonTarget target{.tolerance = tolerance, .give_up = 1.2 * ratio * tolerance / nonlinear_coefficient};
   if (newton_.solve(gamma, out.first(n), target) != NewtonResult::converged) {
-    std::copy_n(newton_.obstacle().begin(), n, unconverged_.begin());
+    unconverged_ = worst_components(*system_, newton_.obstacle(), options_);
     return SUN_NLS_CONV_RECVR;
   }
   system_->recover_memory(out.first(n), out.subspan(n));
@@ -221,9 +220,9 @@ double CvodeIntegrator::step(double limit) {
 void CvodeIntegrator::fail(const char* what, int flag) {
   double h = 0.0;
   CVodeGetCurrentStep(cvode_, &h);
-  std::span<const double> errors = unconverged_;
-  if (flag == CV_ERR_FAILURE && CVodeGetEstLocalErrors(cvode_, interpolated_) == CV_SUCCESS) errors = values(interpolated_);
-  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_) + fmt::format(" (CVODE {})", flag));
+  const bool estimated = flag == CV_ERR_FAILURE && CVodeGetEstLocalErrors(cvode_, interpolated_) == CV_SUCCESS;
+  const auto worst = estimated ? worst_components(*system_, values(interpolated_), options_) : unconverged_;
+  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), worst) + fmt::format(" (CVODE {})", flag));
 }
 
 double CvodeIntegrator::after_event(CvodeHistory& history) {
@@ -265,7 +264,7 @@ void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<cons
   if (keep) history.shift(t - time_);
   if (!source.empty()) {
     family_->rearrange(source);
-    unconverged_.assign(y.size(), 0.0);
+    unconverged_.clear();
   }
   newton_.system_changed();
   offset_ += t - time_;
