@@ -47,6 +47,8 @@ class CvodeIntegrator final : public Integrator {
   void configure(double t);
   void start_afresh();
   void make_nonlinear_solver();
+  /// CVODE's room for a rate, which it does not use between two calls of the nonlinear solver, and during one leaves to that.
+  N_Vector scratch() const;
   int solve_step(N_Vector correction, double tolerance);
   double after_event(CvodeHistory& history);
   void learn_from_step();
@@ -59,7 +61,7 @@ class CvodeIntegrator final : public Integrator {
   MinimisingNewton newton_;
   SUNContext context_ = nullptr;
   std::shared_ptr<VectorFamily> family_;
-  N_Vector y_ = nullptr, psi_ = nullptr, interpolated_ = nullptr;
+  N_Vector y_ = nullptr, interpolated_ = nullptr;
   SUNNonlinearSolver solver_ = nullptr;
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
@@ -85,7 +87,6 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
   system.choose_linear_solver(options.linear_solver);
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
   y_ = make_fused_vector(y.size(), context_, family_);
-  psi_ = make_fused_vector(y.size(), context_, family_);
   interpolated_ = make_fused_vector(y.size(), context_, family_);
   std::copy(y.begin(), y.end(), values(y_).begin());
   cvode_ = CVodeCreate(CV_BDF, context_);
@@ -96,7 +97,7 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
 CvodeIntegrator::~CvodeIntegrator() {
   CVodeFree(&cvode_);
   if (solver_ != nullptr) SUNNonlinSolFree(solver_);
-  for (N_Vector v : {y_, psi_, interpolated_}) N_VDestroy(v);
+  for (N_Vector v : {y_, interpolated_}) N_VDestroy(v);
   SUNContext_Free(&context_);
 }
 
@@ -148,16 +149,24 @@ void CvodeIntegrator::make_nonlinear_solver() {
   };
 }
 
+N_Vector CvodeIntegrator::scratch() const {
+  double t, gamma, rl1;
+  N_Vector predicted, y, rate, zn1;
+  void* user;
+  check(CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &y, &rate, &gamma, &rl1, &zn1, &user), "CVodeGetNonlinearSystemData");
+  return rate;
+}
+
 /// One nonlinear solve: y - psi - gamma f(t, y) = 0 with psi = zn[0] - rl1 zn[1], the rest lengths eliminated.
 int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   double t, gamma, rl1;
-  N_Vector predicted, yn, fn, zn1;
+  N_Vector predicted, yn, psi, zn1;
   void* user;
-  if (CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &yn, &fn, &gamma, &rl1, &zn1, &user) != CV_SUCCESS)
+  if (CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &yn, &psi, &gamma, &rl1, &zn1, &user) != CV_SUCCESS)
     return SUN_NLS_MEM_NULL;
   t += offset_;
-  N_VLinearSum(1.0, predicted, -rl1, zn1, psi_);
-  system_->begin_implicit_step(t, gamma, values(psi_));
+  N_VLinearSum(1.0, predicted, -rl1, zn1, psi);
+  system_->begin_implicit_step(t, gamma, values(psi));
   const std::span<double> out = values(correction), start = values(predicted);
   const std::size_t n = system_->position_count();
   std::copy_n(start.begin(), n, out.begin());
@@ -227,13 +236,14 @@ void CvodeIntegrator::fail(const char* what, int flag) {
 
 double CvodeIntegrator::after_event(CvodeHistory& history) {
   double planned = 0.0;
-  weights(y_, psi_, this);  // psi_ is free until the next solve
+  N_Vector weight = scratch();
+  weights(y_, weight, this);
   CVodeGetCurrentStep(cvode_, &planned);
-  return event_step_.after(history.set_rate(interpolated_, psi_), planned);
+  return event_step_.after(history.set_rate(interpolated_, weight), planned);
 }
 
 void CvodeIntegrator::learn_from_step() {
-  N_Vector weight = psi_;  // until the next solve
+  N_Vector weight = scratch();
   if (CVodeGetEstLocalErrors(cvode_, interpolated_) != CV_SUCCESS || CVodeGetErrWeights(cvode_, weight) != CV_SUCCESS) return;
   event_step_.learn(last_step_, N_VWrmsNorm(interpolated_, weight));
 }
