@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "suture/errors.hpp"
+#include "suture/model/state.hpp"
 #include "suture/model/tissue.hpp"
 
 using namespace suture;
@@ -44,6 +45,21 @@ TEST_CASE("copies of a tissue share their arrays, and one that was moved from st
   CHECK(tissue.initial_rest_length(4) == 0.5);
   CHECK(Tissue().subset({}).cell_count() == 0);
   CHECK(Tissue().first_vertex(0) == 0);
+}
+
+TEST_CASE("states share what none of them changes", "[unit]") {
+  TissueState state;
+  state.tissue = Tissue({3}, {CellMaterial{}}, {0.5, 0.6, 0.7});
+  state.reference_rest_length = std::vector{1.0, 2.0, 3.0};
+  const TissueState copy = state;
+  CHECK(copy.reference_rest_length.data() == state.reference_rest_length.data());
+  CHECK(copy.reference_rest_length == SharedValues(std::vector{1.0, 2.0, 3.0}));
+  state.reference_rest_length = std::vector{1.0, 2.0, 4.0};
+  CHECK(copy.reference_rest_length[2] == 3.0);
+  CHECK_FALSE(copy.reference_rest_length == state.reference_rest_length);
+  CHECK_FALSE(copy.reference_rest_length == SharedValues());
+  CHECK(SharedValues(std::vector<double>()) == SharedValues());
+  CHECK(SharedValues().to_vector().empty());
 }
 
 TEST_CASE("the default rest length is the published one", "[unit]") {
