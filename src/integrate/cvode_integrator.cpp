@@ -36,6 +36,7 @@ class CvodeIntegrator final : public Integrator {
   double last_step() const override { return last_step_; }
   int last_order() const override;
   void interpolate(double t, std::span<double> y) const override;
+  void interpolate_some(double t, std::span<const int> components, std::span<double> y) const override;
   void resume(double t, std::span<const double> y, std::span<const int> source) override;
   Statistics statistics() const override;
 
@@ -46,6 +47,8 @@ class CvodeIntegrator final : public Integrator {
   void configure(double t);
   void start_afresh();
   void make_nonlinear_solver();
+  /// CVODE's room for a rate, which it does not use between two calls of the nonlinear solver, and during one leaves to that.
+  N_Vector scratch() const;
   int solve_step(N_Vector correction, double tolerance);
   double after_event(CvodeHistory& history);
   void learn_from_step();
@@ -58,14 +61,14 @@ class CvodeIntegrator final : public Integrator {
   MinimisingNewton newton_;
   SUNContext context_ = nullptr;
   std::shared_ptr<VectorFamily> family_;
-  N_Vector y_ = nullptr, psi_ = nullptr, interpolated_ = nullptr;
+  N_Vector y_ = nullptr, interpolated_ = nullptr;
   SUNNonlinearSolver solver_ = nullptr;
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
   double offset_ = 0.0;  // time - CVODE's time: CVODE cannot step back to an event inside its last step
   std::int64_t rates_ = 0;
   std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
-  std::vector<double> unconverged_;  // MinimisingNewton::obstacle of the last failed solve; zero for rest lengths
+  std::vector<WorstComponent> unconverged_;  // of MinimisingNewton::obstacle of the last failed solve
   bool history_known_ = false;  // where CVODE keeps its past has been found at the last event
   EventStep event_step_{2.0};
   double first_step_ = 0.0;  // at most, when an event has just been passed
@@ -80,12 +83,10 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
                        .largest_move = options.largest_move,
                        .always_set_up = options.linear_solver == LinearSolver::sparse_direct}),
       family_(std::make_shared<VectorFamily>(system.workers())),
-      time_(t),
-      unconverged_(y.size()) {
+      time_(t) {
   system.choose_linear_solver(options.linear_solver);
   if (SUNContext_Create(nullptr, &context_) != 0) throw NumericalError("CVODE: no context");
   y_ = make_fused_vector(y.size(), context_, family_);
-  psi_ = make_fused_vector(y.size(), context_, family_);
   interpolated_ = make_fused_vector(y.size(), context_, family_);
   std::copy(y.begin(), y.end(), values(y_).begin());
   cvode_ = CVodeCreate(CV_BDF, context_);
@@ -96,7 +97,7 @@ CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOpt
 CvodeIntegrator::~CvodeIntegrator() {
   CVodeFree(&cvode_);
   if (solver_ != nullptr) SUNNonlinSolFree(solver_);
-  for (N_Vector v : {y_, psi_, interpolated_}) N_VDestroy(v);
+  for (N_Vector v : {y_, interpolated_}) N_VDestroy(v);
   SUNContext_Free(&context_);
 }
 
@@ -148,16 +149,24 @@ void CvodeIntegrator::make_nonlinear_solver() {
   };
 }
 
+N_Vector CvodeIntegrator::scratch() const {
+  double t, gamma, rl1;
+  N_Vector predicted, y, rate, zn1;
+  void* user;
+  check(CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &y, &rate, &gamma, &rl1, &zn1, &user), "CVodeGetNonlinearSystemData");
+  return rate;
+}
+
 /// One nonlinear solve: y - psi - gamma f(t, y) = 0 with psi = zn[0] - rl1 zn[1], the rest lengths eliminated.
 int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   double t, gamma, rl1;
-  N_Vector predicted, yn, fn, zn1;
+  N_Vector predicted, yn, psi, zn1;
   void* user;
-  if (CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &yn, &fn, &gamma, &rl1, &zn1, &user) != CV_SUCCESS)
+  if (CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &yn, &psi, &gamma, &rl1, &zn1, &user) != CV_SUCCESS)
     return SUN_NLS_MEM_NULL;
   t += offset_;
-  N_VLinearSum(1.0, predicted, -rl1, zn1, psi_);
-  system_->begin_implicit_step(t, gamma, values(psi_));
+  N_VLinearSum(1.0, predicted, -rl1, zn1, psi);
+  system_->begin_implicit_step(t, gamma, values(psi));
   const std::span<double> out = values(correction), start = values(predicted);
   const std::size_t n = system_->position_count();
   std::copy_n(start.begin(), n, out.begin());
@@ -166,7 +175,7 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   const double ratio = std::sqrt(static_cast<double>(out.size()) / static_cast<double>(n));
   const NewtonTarget target{.tolerance = tolerance, .give_up = 1.2 * ratio * tolerance / nonlinear_coefficient};
   if (newton_.solve(gamma, out.first(n), target) != NewtonResult::converged) {
-    std::copy_n(newton_.obstacle().begin(), n, unconverged_.begin());
+    unconverged_ = worst_components(*system_, newton_.obstacle(), options_);
     return SUN_NLS_CONV_RECVR;
   }
   system_->recover_memory(out.first(n), out.subspan(n));
@@ -220,20 +229,21 @@ double CvodeIntegrator::step(double limit) {
 void CvodeIntegrator::fail(const char* what, int flag) {
   double h = 0.0;
   CVodeGetCurrentStep(cvode_, &h);
-  std::span<const double> errors = unconverged_;
-  if (flag == CV_ERR_FAILURE && CVodeGetEstLocalErrors(cvode_, interpolated_) == CV_SUCCESS) errors = values(interpolated_);
-  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), errors, options_) + fmt::format(" (CVODE {})", flag));
+  const bool estimated = flag == CV_ERR_FAILURE && CVodeGetEstLocalErrors(cvode_, interpolated_) == CV_SUCCESS;
+  const auto worst = estimated ? worst_components(*system_, values(interpolated_), options_) : unconverged_;
+  throw NumericalError(failure_report(*system_, what, time_, h, last_order(), worst) + fmt::format(" (CVODE {})", flag));
 }
 
 double CvodeIntegrator::after_event(CvodeHistory& history) {
   double planned = 0.0;
-  weights(y_, psi_, this);  // psi_ is free until the next solve
+  N_Vector weight = scratch();
+  weights(y_, weight, this);
   CVodeGetCurrentStep(cvode_, &planned);
-  return event_step_.after(history.set_rate(interpolated_, psi_), planned);
+  return event_step_.after(history.set_rate(interpolated_, weight), planned);
 }
 
 void CvodeIntegrator::learn_from_step() {
-  N_Vector weight = psi_;  // until the next solve
+  N_Vector weight = scratch();
   if (CVodeGetEstLocalErrors(cvode_, interpolated_) != CV_SUCCESS || CVodeGetErrWeights(cvode_, weight) != CV_SUCCESS) return;
   event_step_.learn(last_step_, N_VWrmsNorm(interpolated_, weight));
 }
@@ -249,6 +259,12 @@ void CvodeIntegrator::interpolate(double t, std::span<double> y) const {
   std::copy_n(values(interpolated_).begin(), y.size(), y.begin());
 }
 
+void CvodeIntegrator::interpolate_some(double t, std::span<const int> components, std::span<double> y) const {
+  check(CVodeGetDky(cvode_, t - offset_, 0, interpolated_), "CVodeGetDky");
+  const std::span<const double> all = values(interpolated_);
+  for (const int k : components) y[k] = all[k];
+}
+
 /// The steps behind the event stay CVODE's past: the solution and, for most components, its rate are continuous there.
 /// What is not, the error test sees at the next step, as it sees any other rough spot.
 void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<const int> source) {
@@ -258,7 +274,7 @@ void CvodeIntegrator::resume(double t, std::span<const double> y, std::span<cons
   if (keep) history.shift(t - time_);
   if (!source.empty()) {
     family_->rearrange(source);
-    unconverged_.assign(y.size(), 0.0);
+    unconverged_.clear();
   }
   newton_.system_changed();
   offset_ += t - time_;

@@ -77,7 +77,7 @@ void ExplicitIntegrator::interpolate_some(double t, std::span<const int> compone
 }
 
 void ExplicitIntegrator::fail(const std::string& what, double h, std::span<const double> errors) const {
-  throw NumericalError(failure_report(*system_, what, time_, h, order_, errors, options_));
+  throw NumericalError(failure_report(*system_, what, time_, h, order_, worst_components(*system_, errors, options_)));
 }
 
 }  // namespace suture

@@ -13,8 +13,9 @@ MinimisingNewton::MinimisingNewton(GradientFlowSystem& system, const NewtonOptio
 void MinimisingNewton::allocate() {
   n_ = system_->position_count();
   padded_ = (n_ + 7) / 8 * 8;
-  buffer_ = AlignedBuffer(9 * padded_);
-  for (double** v : {&q_, &start_, &f_, &trial_, &z_, &d_, &r_, &p_, &ap_}) *v = buffer_.take(n_);
+  buffer_ = {};  // before it is taken anew
+  buffer_ = AlignedBuffer(7 * padded_);
+  for (double** v : {&q_, &f_, &trial_, &z_, &d_, &r_, &p_}) *v = buffer_.take(n_);
 }
 
 void MinimisingNewton::system_changed() {
@@ -61,8 +62,8 @@ double MinimisingNewton::linearise(double gamma, double fz, bool renew) {
   return precondition_residual();
 }
 
-bool MinimisingNewton::too_long(const NewtonTarget& target) {
-  operations_.linear_sum(padded_, 1.0, q_, -1.0, start_, trial_);
+bool MinimisingNewton::too_long(std::span<const double> prediction, const NewtonTarget& target) {
+  operations_.linear_sum(n_, 1.0, q_, -1.0, prediction.data(), trial_);  // beyond n_ all is zero
   if (norm(operations_.dot(padded_, trial_, trial_)) <= target.give_up) return false;
   std::copy_n(trial_, n_, z_);
   ++counts_.early_exits;
@@ -74,26 +75,28 @@ bool MinimisingNewton::secants(double& fz, double wanted) {
   constexpr double shortest = 0.05, longest = 3.0;  // a step beyond these, or one uphill, tells of contacts that P does not know
   constexpr double most_growth = 4.0;                // of the squared error, which need not fall in every iteration
   bool moved = false;
+  double* const change = d_;  // of the residual
   k.linear_sum(padded_, -1.0, z_, 0.0, z_, p_);
   for (int iteration = 1; iteration <= options_.maximum_secants; ++iteration) {
     if (k.add_and_largest(padded_, q_, p_, trial_) > options_.largest_move || residual(span(trial_), r_) != Evaluation::ok) break;
     ++counts_.iterations;
-    const double step = fz / k.subtract_and_dot(padded_, r_, f_, p_, ap_);
+    const double step = fz / k.subtract_and_dot(padded_, r_, f_, p_, change);
     if (!(step > shortest && step < longest)) break;
-    k.add_scaled_twice(padded_, step, p_, q_, ap_, f_);
+    k.add_scaled_twice(padded_, step, p_, q_, change, f_);
     moved = true;
     const double before = fz;
     fz = precondition_residual();
     last_linear_ = iteration;
     if (fresh_linear_ == 0) fresh_linear_ = iteration;
     if (norm(fz) <= wanted || !(fz <= most_growth * before)) break;
-    k.linear_sum(padded_, std::max(0.0, step * k.dot(padded_, z_, ap_) / before), p_, -1.0, z_, p_);
+    k.linear_sum(padded_, std::max(0.0, step * k.dot(padded_, z_, change) / before), p_, -1.0, z_, p_);
   }
   return moved;
 }
 
 void MinimisingNewton::conjugate_gradients(double fz, double target) {
   const VectorOperations& k = operations_;
+  double* const product = trial_;
   std::fill_n(d_, n_, 0.0);
   k.linear_sum(padded_, -1.0, f_, 0.0, f_, r_);
   k.linear_sum(padded_, -1.0, z_, 0.0, z_, p_);
@@ -101,15 +104,15 @@ void MinimisingNewton::conjugate_gradients(double fz, double target) {
   int iteration = 0;
   double rz = fz;
   for (; iteration < most && norm(rz) > target; ++iteration) {
-    system_->product(span(p_), span(ap_));
-    const double curvature = k.dot(padded_, p_, ap_);
+    system_->product(span(p_), span(product));
+    const double curvature = k.dot(padded_, p_, product);
     if (curvature <= 0.0) {  // keep what there is; at the start that is the preconditioned gradient
       if (iteration == 0) std::copy_n(p_, n_, d_);
       break;
     }
     const double step = rz / curvature;
     k.linear_sum(padded_, 1.0, d_, step, p_, d_);
-    k.linear_sum(padded_, 1.0, r_, -step, ap_, r_);
+    k.linear_sum(padded_, 1.0, r_, -step, product, r_);
     system_->precondition(span(r_), span(z_));
     const double next = k.dot(padded_, r_, z_);
     k.linear_sum(padded_, 1.0, z_, next / rz, p_, p_);
@@ -125,10 +128,11 @@ void MinimisingNewton::limit_step() {
   const VectorOperations& k = operations_;
   constexpr double least_descent = 0.3;  // of that of the step as it was
   const double descent = k.dot(padded_, f_, d_);
-  std::copy_n(d_, n_, ap_);
+  double* const whole = trial_;
+  std::copy_n(d_, n_, whole);
   system_->limit_step(span(q_), span(d_));
   if (!(k.dot(padded_, f_, d_) <= least_descent * descent))
-    k.linear_sum(padded_, system_->step_limit(span(q_), span(ap_)), ap_, 0.0, ap_, d_);
+    k.linear_sum(padded_, system_->step_limit(span(q_), span(whole)), whole, 0.0, whole, d_);
 }
 
 bool MinimisingNewton::line_search() {
@@ -172,7 +176,6 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   const VectorOperations& k = operations_;
   const double wanted = 0.5 * target.tolerance;
   std::copy_n(q.data(), n_, q_);
-  std::copy_n(q.data(), n_, start_);
   if (residual(span(q_), f_) != Evaluation::ok) {
     std::fill_n(z_, n_, 0.0);
     return failed();
@@ -189,7 +192,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   const bool tried = options_.maximum_secants > 0 && !options_.always_set_up && norm(fz) > wanted;
   if (tried) {
     const bool moved = secants(fz, wanted);
-    if (moved && too_long(target)) return NewtonResult::too_long;
+    if (moved && too_long(q, target)) return NewtonResult::too_long;
     if (moved && norm(fz) > wanted) {  // f_ is interpolated
       linearised = false;
       if (residual(span(q_), f_) != Evaluation::ok) return failed();
@@ -210,7 +213,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
     ++counts_.iterations;
     conjugate_gradients(fz, std::max(options_.forcing * error, wanted));
     if (!line_search()) return failed();
-    if (too_long(target)) return NewtonResult::too_long;
+    if (too_long(q, target)) return NewtonResult::too_long;
     fz = precondition_residual();
   }
 }

@@ -35,7 +35,8 @@ class MinimisingNewton {
  public:
   MinimisingNewton(GradientFlowSystem& system, const NewtonOptions& options);
 
-  /// system.begin_implicit_step has been called. q: prediction in, solution out (positions only).
+  /// system.begin_implicit_step has been called. q: prediction in, solution out (positions only); a solve that does not
+  /// converge leaves it alone.
   NewtonResult solve(double gamma, std::span<double> q, const NewtonTarget& target);
 
   /// The system has another size or other terms since the last solve.
@@ -61,7 +62,7 @@ class MinimisingNewton {
   double precondition_residual();
   /// At q_. Returns f.z, which a new set-up changes; fz: before. renew: set P up anew unless this solve has done so.
   double linearise(double gamma, double fz, bool renew);
-  bool too_long(const NewtonTarget& target);
+  bool too_long(std::span<const double> prediction, const NewtonTarget& target);
   /// Preconditioned nonlinear conjugate gradients (Polak & Ribiere 1969, not below zero) from q_, its residual f_ and
   /// z_ = P^-1 f_. Forces are piecewise linear, so the difference of two residuals is a product with the Hessian: an iteration
   /// costs a residual and an application of P, no second derivatives. Afterwards f_ is interpolated between residuals.
@@ -81,7 +82,7 @@ class MinimisingNewton {
   NewtonOptions options_;
   std::size_t n_ = 0, padded_ = 0;
   AlignedBuffer buffer_;
-  double *q_, *start_, *f_, *trial_, *z_, *d_, *r_, *p_, *ap_;
+  double *q_, *f_, *trial_, *z_, *d_, *r_, *p_;  // d_ and trial_ lend their room to what is needed at other times
   double preconditioner_gamma_ = 0.0;
   int preconditioner_age_ = 0, last_linear_ = 0, fresh_linear_ = 0;
   Counts counts_;

@@ -56,7 +56,7 @@ void SundialsProblem::check(int flag, const char* call) {
 
 void SundialsProblem::fail(const std::string& what, double t, double step, int order, N_Vector errors, int flag) const {
   const std::span<const double> local = errors != nullptr ? std::span<const double>(values(errors)) : std::span<const double>();
-  throw NumericalError(failure_report(*system_, what, t, step, order, local, options_) + fmt::format(" (SUNDIALS {})", flag));
+  throw NumericalError(failure_report(*system_, what, t, step, order, worst_components(*system_, local, options_)) + fmt::format(" (SUNDIALS {})", flag));
 }
 
 }  // namespace suture

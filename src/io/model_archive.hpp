@@ -34,6 +34,14 @@ void exchange_fields(Archive& archive, PurseString& ring) {
 }
 
 template <class Archive>
+void exchange_fields(Archive& archive, SharedValues& shared) {
+  std::vector<double> values;
+  if constexpr (!Archive::reading) values = shared.to_vector();
+  archive(values);
+  if constexpr (Archive::reading) shared = std::move(values);
+}
+
+template <class Archive>
 void exchange_fields(Archive& archive, Tissue& tissue) {
   std::vector<int> counts;
   std::vector<CellMaterial> materials;

@@ -76,7 +76,7 @@ PurseString read_purse_string(const Hdf5Group& group) {
 
 }  // namespace
 
-void write_tissue(const Hdf5Group& group, const Tissue& tissue, const std::vector<double>& reference_rest_length) {
+void write_tissue(const Hdf5Group& group, const Tissue& tissue, std::span<const double> reference_rest_length) {
   std::vector<int> first_vertex;
   for (int cell = 0; cell < tissue.cell_count(); ++cell) first_vertex.push_back(tissue.first_vertex(cell));
   first_vertex.push_back(tissue.vertex_count());

@@ -2,6 +2,7 @@
 // (docs/reference/output-format.md).
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ inline constexpr const char* trajectory_schema = "suture-trajectory";
 inline constexpr int trajectory_schema_version = 1;
 
 /// first_vertex, initial_rest_length, reference_rest_length and one dataset per material property.
-void write_tissue(const Hdf5Group& group, const Tissue& tissue, const std::vector<double>& reference_rest_length);
+void write_tissue(const Hdf5Group& group, const Tissue& tissue, std::span<const double> reference_rest_length);
 
 struct StoredTissue {
   Tissue tissue;

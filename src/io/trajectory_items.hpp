@@ -27,7 +27,7 @@ struct StageItem {
 /// Tissue of all frames that follow.
 struct TissueItem {
   Tissue tissue;
-  std::vector<double> reference_rest_length;
+  SharedValues reference_rest_length;
 };
 
 struct FrameItem {

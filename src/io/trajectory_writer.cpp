@@ -19,7 +19,7 @@ struct TrajectoryWriter::Impl {
   bool has_tissue = false;
   double last_time = -std::numeric_limits<double>::infinity();
   Tissue tissue;
-  std::vector<double> reference_rest_length;
+  SharedValues reference_rest_length;
   bool closed = false;
 
   void add(TrajectoryItem item) {

@@ -114,7 +114,9 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
 
 const std::vector<char>& WoundNeighbourhood::exposed(const Tissue& tissue, const StateView& state) {
   const Tissue& watched = part(tissue);
-  return scatter(tissue, expose(watched, gather(state)).exposed);
+  scatter(tissue, expose(watched, gather(state)).exposed);
+  if (cells_.empty()) tracker_.release_memory();  // of the whole tissue
+  return exposed_;
 }
 
 const std::vector<char>& WoundNeighbourhood::scatter(const Tissue& tissue, const std::vector<char>& found) {

@@ -10,25 +10,52 @@
 
 namespace suture {
 
-Tissue::Tissue(const std::vector<int>& vertex_counts, std::vector<CellMaterial> materials,
-               std::vector<double> initial_rest_lengths)
-    : materials_(std::move(materials)), initial_rest_lengths_(std::move(initial_rest_lengths)) {
-  if (vertex_counts.size() != materials_.size())
-    throw InputError(fmt::format("{} cells but {} materials", vertex_counts.size(), materials_.size()));
+namespace {
+
+/// Before anything is allocated for them.
+void check_sizes(const std::vector<int>& vertex_counts, std::size_t materials, std::size_t rest_lengths) {
+  if (vertex_counts.size() != materials) throw InputError(fmt::format("{} cells but {} materials", vertex_counts.size(), materials));
+  std::size_t segments = 0;
   for (std::size_t cell = 0; cell < vertex_counts.size(); ++cell) {
     const int count = vertex_counts[cell];
     if (count < 3) throw InputError(fmt::format("cell {} has {} vertices; at least 3 are needed", cell, count));
-    first_.push_back(first_.back() + count);
-    cell_of_.insert(cell_of_.end(), count, static_cast<int>(cell));
+    segments += static_cast<std::size_t>(count);
   }
-  if (initial_rest_lengths_.size() != cell_of_.size())
-    throw InputError(fmt::format("{} segments but {} rest lengths", cell_of_.size(), initial_rest_lengths_.size()));
+  if (rest_lengths != segments) throw InputError(fmt::format("{} segments but {} rest lengths", segments, rest_lengths));
+}
+
+}  // namespace
+
+struct Tissue::Segments {
+  std::vector<int> first{0}, cell_of;
+  std::vector<double> initial_rest_lengths;
+};
+
+Tissue::Tissue(const std::vector<int>& vertex_counts, std::vector<CellMaterial> materials,
+               std::vector<double> initial_rest_lengths) {
+  check_sizes(vertex_counts, materials.size(), initial_rest_lengths.size());
+  auto segments = std::make_shared<Segments>();
+  segments->first.reserve(vertex_counts.size() + 1);
+  segments->cell_of.reserve(initial_rest_lengths.size());
+  for (std::size_t cell = 0; cell < vertex_counts.size(); ++cell) {
+    segments->first.push_back(segments->first.back() + vertex_counts[cell]);
+    segments->cell_of.insert(segments->cell_of.end(), vertex_counts[cell], static_cast<int>(cell));
+  }
+  segments->initial_rest_lengths = std::move(initial_rest_lengths);
+  first_ = segments->first, cell_of_ = segments->cell_of, initial_rest_lengths_ = segments->initial_rest_lengths;
+  segments_ = std::move(segments);
+  hold(std::move(materials));
   for (int v = 0; v < vertex_count(); ++v)
     if (!(initial_rest_lengths_[v] > 0.0))
       throw InputError(fmt::format("{}: the rest length {} is not positive", vertex_name(v), initial_rest_lengths_[v]));
   if (!cell_of_.empty())
     mean_initial_rest_length_ =
         std::accumulate(initial_rest_lengths_.begin(), initial_rest_lengths_.end(), 0.0) / vertex_count();
+}
+
+void Tissue::hold(std::vector<CellMaterial> materials) {
+  held_materials_ = std::make_shared<const std::vector<CellMaterial>>(std::move(materials));
+  materials_ = *held_materials_;
 }
 
 std::string Tissue::vertex_name(int vertex) const {
@@ -52,7 +79,7 @@ Tissue Tissue::subset(const std::vector<int>& keep) const {
 Tissue Tissue::with_materials(std::vector<CellMaterial> materials) const {
   SUTURE_EXPECTS(materials.size() == materials_.size());
   Tissue copy = *this;
-  copy.materials_ = std::move(materials);
+  copy.hold(std::move(materials));
   return copy;
 }
 

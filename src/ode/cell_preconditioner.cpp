@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "suture/errors.hpp"
+
 namespace suture {
 
 template <class Task>
@@ -24,7 +26,6 @@ void CellPreconditioner::make_batches() {
   constexpr std::size_t shortest = 4, most_ranges = 64;
   ranges_ = {batches_.size(), std::max(shortest, (batches_.size() + most_ranges - 1) / most_ranges)};
   for (int k = 0; k < ranges_.count(); ++k) rooms_.emplace_back(tissue_->vertex_count(order.back()));
-  diagonal_ = AlignedBuffer(4 * static_cast<std::size_t>(padded_->slots()));
   set_ring_size(ring_size_);
 }
 
@@ -33,8 +34,15 @@ void CellPreconditioner::set_ring_size(int ring_size) {
   if (!batches_.empty()) ring_ = ring_size > 0 ? RingFactors(tissue_->vertex_count(), ring_size) : RingFactors();
 }
 
+/// The four arrays of a product lie one behind the other, and are made anew for every product.
+double* CellPreconditioner::diagonal() const {
+  const kernels::ShellHessian& h = padded_->hessian;
+  SUTURE_EXPECTS(h.vx + padded_->slots() <= h.vy && h.vy + padded_->slots() <= h.ox && h.ox + padded_->slots() <= h.oy);
+  return h.vx;
+}
+
 void CellPreconditioner::sum_diagonal(const ContactFactors& contacts, std::span<const PointBlock> extra, WorkerPool& workers) {
-  double* const diagonal = diagonal_.data();
+  double* const diagonal = this->diagonal();
   std::fill_n(diagonal, 4 * static_cast<std::size_t>(padded_->slots()), 0.0);
   // Lists at work at once touch no common cell, hence no common slot.
   contacts.for_each_list(workers, [&](int, std::span<const kernels::ContactFactor> factors) {
@@ -56,7 +64,7 @@ void CellPreconditioner::sum_diagonal(const ContactFactors& contacts, std::span<
 void CellPreconditioner::set_up(double gamma, const ContactFactors& contacts, std::span<const PointBlock> extra, WorkerPool& workers) {
   if (batches_.empty()) make_batches();
   sum_diagonal(contacts, extra, workers);
-  for_each_batch(workers, [&](CellBatch& batch, FactorRoom& room) { batch.set_up(gamma, *padded_, diagonal_.data(), *kernel_, room); });
+  for_each_batch(workers, [&](CellBatch& batch, FactorRoom& room) { batch.set_up(gamma, *padded_, diagonal(), *kernel_, room); });
   if (ring_size_ > 0) ring_.set_up(gamma, extra, *kernel_);
 }
 

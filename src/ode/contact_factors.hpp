@@ -31,8 +31,11 @@ class ContactFactors {
   struct Live {
     std::vector<kernels::ContactFactor> factors;  // the first `live` are in use
     std::size_t live = 0;
+    /// Grows by an eighth, not twofold: lists are made once and used often.
     void make_room(std::size_t more) {
-      if (factors.size() < live + more) factors.resize(live + more);
+      const std::size_t needed = live + more;
+      if (factors.capacity() < needed) factors.reserve(needed + needed / 8);
+      if (factors.size() < needed) factors.resize(needed);
     }
   };
   std::vector<Live> lists_;

@@ -15,15 +15,17 @@ namespace suture {
 
 struct TissueOde::Impl : TissueGradient {
   Impl(const Tissue& tissue_in, int ring, TissueOdeOptions options_in,
-       std::vector<std::shared_ptr<const EnergyTerm>> extra_in, std::span<const double> reference)
-      : TissueGradient(tissue_in, ring, std::move(options_in), std::move(extra_in)), preconditioner(tissue, padded, ring, kernel), direct(tissue, padded) {
+       std::vector<std::shared_ptr<const EnergyTerm>> extra_in, SharedValues reference_in)
+      : TissueGradient(tissue_in, ring, std::move(options_in), std::move(extra_in)),
+        preconditioner(tissue, padded, ring, kernel),
+        direct(tissue, padded),
+        reference(std::move(reference_in)),
+        reference_length(reference.empty() ? tissue.initial_rest_lengths() : reference) {
     for (int c = 0; c < tissue.cell_count(); ++c) {
       const CellMaterial& m = tissue.material(c);
       inverse_tau.push_back(options.plastic && std::isfinite(m.tau) ? 1.0 / m.tau : 0.0);
       memory.push_back(m.memory);
     }
-    const int vertices = tissue.vertex_count();
-    for (int v = 0; v < vertices; ++v) reference_length.push_back(reference.empty() ? tissue.initial_rest_length(v) : reference[v]);
   }
 
   StateView positions_view(std::span<const double> q) const {
@@ -53,7 +55,8 @@ struct TissueOde::Impl : TissueGradient {
   SparseDirect direct;
   bool factored_directly = false;
   std::vector<double> inverse_tau, memory;  // per cell
-  std::vector<double> reference_length;
+  SharedValues reference;  // empty: l0(0)
+  std::span<const double> reference_length;
 
   // The implicit step in progress.
   double step_time = 0.0, gamma = 0.0;
@@ -64,8 +67,8 @@ struct TissueOde::Impl : TissueGradient {
 };
 
 TissueOde::TissueOde(const Tissue& tissue, int ring_size, TissueOdeOptions options,
-                     std::vector<std::shared_ptr<const EnergyTerm>> extra, std::span<const double> reference_rest_length)
-    : impl_(std::make_unique<Impl>(tissue, ring_size, std::move(options), std::move(extra), reference_rest_length)) {}
+                     std::vector<std::shared_ptr<const EnergyTerm>> extra, SharedValues reference_rest_length)
+    : impl_(std::make_unique<Impl>(tissue, ring_size, std::move(options), std::move(extra), std::move(reference_rest_length))) {}
 TissueOde::~TissueOde() = default;
 
 const StateLayout& TissueOde::layout() const { return impl_->layout; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "suture/errors.hpp"
 #include "suture/measure/cell_shape.hpp"
@@ -55,8 +56,9 @@ TissueState remove_cells(const TissueState& state, const std::vector<int>& cells
   append_surviving(view.x, wounded.values);
   append_surviving(view.y, wounded.values);
   append_surviving(view.rest_length, wounded.values);
-  if (!state.reference_rest_length.empty())
-    append_surviving(state.reference_rest_length, wounded.reference_rest_length);
+  std::vector<double> reference;
+  if (!state.reference_rest_length.empty()) append_surviving(state.reference_rest_length, reference);
+  wounded.reference_rest_length = std::move(reference);
   return wounded;
 }
 
@@ -69,7 +71,7 @@ Ablated ablate(const Config& config, const TissueState& annealed, const Progress
       config, ablated.state, config.wound.relaxation_time,
       [&progress](double fraction, std::string_view text) { report_progress(progress, "ablation", fraction, text); }, watch);
   const std::span<const double> rest_lengths = ablated.state.view().rest_length;
-  ablated.state.reference_rest_length.assign(rest_lengths.begin(), rest_lengths.end());
+  ablated.state.reference_rest_length = std::vector(rest_lengths.begin(), rest_lengths.end());
   return ablated;
 }
 

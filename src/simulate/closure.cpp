@@ -165,7 +165,9 @@ TissueState Closure::state_at(double t) const {
 }
 
 void Closure::sample(double t) {
-  const TissueState state = t == state_.time ? state_ : state_at(t);
+  std::optional<TissueState> between;
+  if (t != state_.time) between = state_at(t);
+  const TissueState& state = between ? *between : state_;
   const std::optional<Wound>& wound = sampled_wound_.update(state.tissue, state.view());
   observer_.sample({.state = state,
                     .wound = wound,
@@ -186,7 +188,7 @@ void Closure::sample(double t) {
   }
   last_area_ = area;
   ++samples_;
-  if (done_) result_.state = state;
+  if (done_) result_.state = between ? std::move(*between) : state_;
 }
 
 void Closure::take_samples(double until) {

@@ -102,7 +102,7 @@ std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, con
 void ClosureEvents::watch_grid(const TissueState& state, bool tethers, const WoundNeighbourhood& edge) {
   watched_.clear();
   if (tethers) add_tethers(state, watched_);
-  if (!parameters_.capture) return;
+  if (!looks_at_exposure()) return;
   const auto add_cell = [&](int cell) {
     for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v) add_point(state.layout(), v, watched_);
   };
@@ -123,7 +123,7 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
     const StateView view(state.layout(), values_);
     DueEvents due{grid_time(k), {}, false};
     if (tethers) due.tethers = due_events(state.purse_string, view, thresholds_);
-    due.captures = parameters_.capture && edge.exposed(state.tissue, view) != seen_exposed_;
+    due.captures = parameters_.capture && !(looks_at_exposure() && edge.exposed(state.tissue, view) == seen_exposed_);
     if (due.tethers.empty() && !due.captures) return std::nullopt;
     return due;
   };
@@ -147,6 +147,12 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
   return due;
 }
 
+void ClosureEvents::make_room(std::size_t components) {
+  room_ = {};  // before it is taken anew
+  room_ = AlignedBuffer(components);
+  values_ = {room_.take(components), components};
+}
+
 double ClosureEvents::next_known(double t) {
   if (!gauge_.on_grid(t)) return 1e300;
   return grid_time(static_cast<long>(std::floor((t - start_) / interval_ + 1e-9)) + 1);
@@ -155,7 +161,7 @@ double ClosureEvents::next_known(double t) {
 std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   if (state.purse_string.empty()) return std::nullopt;
   if (parameters_.capture_search == CaptureSearch::published) return after_step(integrator, state);
-  values_.resize(state.values.size());
+  if (values_.size() != state.values.size()) make_room(state.values.size());
   std::optional<DueEvents> due = on_grid(integrator, state, edge);
   if (gauge_.on_grid(integrator.time())) return due;
   std::optional<DueEvents> located = locate(integrator, state);

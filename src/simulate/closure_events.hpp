@@ -2,8 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "kernels/aligned_buffer.hpp"
 #include "simulate/published_search.hpp"
 #include "suture/integrate/integrator.hpp"
 #include "suture/measure/wound_neighbourhood.hpp"
@@ -62,9 +64,13 @@ class ClosureEvents {
  private:
   std::optional<DueEvents> locate(const Integrator& integrator, const TissueState& state);
   std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
+  void make_room(std::size_t components);
   void watch_grid(const TissueState& state, bool tethers, const WoundNeighbourhood& edge);
   std::optional<DueEvents> after_step(const Integrator& integrator, const TissueState& state);
   bool capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
+  /// Whether captures depend on who is exposed; before they are settled they are due, whoever is. That spares a new closure,
+  /// whose wound has not been followed yet, a look at the whole tissue.
+  bool looks_at_exposure() const { return parameters_.capture && !seen_exposed_.empty(); }
   double grid_time(long k) const { return start_ + static_cast<double>(k) * interval_; }
 
   PurseStringParameters parameters_;
@@ -72,10 +78,11 @@ class ClosureEvents {
   double start_, interval_;
   StormGauge gauge_;
   PublishedSearch search_;          // for CaptureSearch::published
-  std::vector<char> seen_exposed_;  // when captures were last settled
+  std::vector<char> seen_exposed_;  // when captures were last settled; empty: they are not
   long last_grid_ = 0;              // index of the last grid time looked at
   std::vector<int> watched_;        // components of y that are looked at
-  std::vector<double> values_;      // y interpolated, in these components
+  AlignedBuffer room_;
+  std::span<double> values_;        // y interpolated, in these components; what is not looked at takes no memory
 };
 
 }  // namespace suture

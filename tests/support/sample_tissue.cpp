@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace suture::test {
 
@@ -29,8 +30,9 @@ TissueState sample_tissue(int rings) {
     }
   materials.front().tau = std::numeric_limits<double>::infinity();
   TissueState state{.tissue = Tissue(counts, materials, rest_length), .time = 100.0 / 3.0};
-  state.reference_rest_length.assign(rest_length.begin(), rest_length.end());
-  state.reference_rest_length[1] *= 1.0 + 1e-15;
+  std::vector<double> reference = rest_length;
+  reference[1] *= 1.0 + 1e-15;
+  state.reference_rest_length = std::move(reference);
 
   PurseString& ring = state.purse_string;
   ring.shrink_rate = 1.0 / 7.0;

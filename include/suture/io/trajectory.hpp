@@ -127,7 +127,7 @@ struct Trajectory {
   std::string code_version, code_commit;
   bool complete = false;  ///< closed by the writer; false: the run goes on or was killed
   Tissue tissue;          ///< of the frames
-  std::vector<double> reference_rest_length;
+  SharedValues reference_rest_length;
   std::vector<TrajectoryFrame> frames;
   std::map<Stage, TissueState> stages;
   std::vector<Series> observables;

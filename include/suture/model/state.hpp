@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "suture/model/purse_string.hpp"
+#include "suture/model/shared_values.hpp"
 #include "suture/model/tissue.hpp"
 
 namespace suture {
@@ -57,7 +58,7 @@ struct MutableStateView {
 struct TissueState {
   Tissue tissue;
   PurseString purse_string;                    ///< empty when there is none
-  std::vector<double> reference_rest_length;   ///< l0_ref of shape memory, one per segment; empty: l0(0)
+  SharedValues reference_rest_length;          ///< l0_ref of shape memory, one per segment; empty: l0(0)
   double time = 0.0;
   std::vector<double> values;                  ///< y
 

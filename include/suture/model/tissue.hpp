@@ -1,6 +1,7 @@
 // Who is made of what: cells, their vertices and their material. Immutable after construction.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@ struct CellMaterial {
 };
 
 /// Closed, counter-clockwise polygonal cells. Vertices are numbered cell after cell; segment v joins v to next(v).
+/// Copies share their arrays: a closure keeps half a dozen of them, and the arrays never change.
 class Tissue {
  public:
   Tissue() = default;
@@ -28,6 +30,9 @@ class Tissue {
   /// initial_rest_lengths: l0(0), one per segment, all > 0. Throws InputError.
   Tissue(const std::vector<int>& vertex_counts, std::vector<CellMaterial> materials,
          std::vector<double> initial_rest_lengths);
+  // Moved from, a tissue stays what it is: moving copies.
+  Tissue(const Tissue&) = default;
+  Tissue& operator=(const Tissue&) = default;
 
   int cell_count() const { return static_cast<int>(materials_.size()); }
   int vertex_count() const { return static_cast<int>(cell_of_.size()); }
@@ -42,6 +47,7 @@ class Tissue {
 
   const CellMaterial& material(int cell) const { return materials_[cell]; }
   double initial_rest_length(int segment) const { return initial_rest_lengths_[segment]; }  ///< l0(0)
+  /// Valid as long as a copy of this tissue lives.
   std::span<const double> initial_rest_lengths() const { return initial_rest_lengths_; }
   double mean_initial_rest_length() const { return mean_initial_rest_length_; }
 
@@ -54,10 +60,16 @@ class Tissue {
   Tissue with_materials(std::vector<CellMaterial> materials) const;
 
  private:
-  std::vector<int> first_{0};
-  std::vector<int> cell_of_;
-  std::vector<CellMaterial> materials_;
-  std::vector<double> initial_rest_lengths_;
+  struct Segments;
+  void hold(std::vector<CellMaterial> materials);
+
+  std::shared_ptr<const Segments> segments_;
+  std::shared_ptr<const std::vector<CellMaterial>> held_materials_;
+  // Windows on the two, so that no look-up goes through two pointers.
+  static constexpr int no_cells = 0;
+  std::span<const int> first_{&no_cells, 1}, cell_of_;
+  std::span<const CellMaterial> materials_;
+  std::span<const double> initial_rest_lengths_;
   double mean_initial_rest_length_ = 0.0;
 };
 

@@ -26,7 +26,7 @@ class TissueOde final : public GradientFlowSystem {
  public:
   /// reference_rest_length: l0_ref, one per segment (empty: l0(0)).
   TissueOde(const Tissue& tissue, int ring_size, TissueOdeOptions options,
-            std::vector<std::shared_ptr<const EnergyTerm>> extra, std::span<const double> reference_rest_length = {});
+            std::vector<std::shared_ptr<const EnergyTerm>> extra, SharedValues reference_rest_length = {});
   ~TissueOde() override;
 
   const StateLayout& layout() const;

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "integrate/failure_report.hpp"
 #include "support/integration.hpp"
 #include "support/random_tissue.hpp"
 #include "support/toy_flow.hpp"
@@ -125,6 +126,23 @@ TEST_CASE("an implicit step that cannot converge names the worst components, not
   const std::string message = failure(system, toy_options(Method::cvode), y);
   CAPTURE(message);
   CHECK_THAT(message, Contains("did not converge") && Contains("worst: component 2 ("));
+}
+
+TEST_CASE("the worst components are the five with the largest errors, in units of their tolerances", "[unit]") {
+  ToyFlow toy(4);
+  IntegratorOptions options;
+  options.position_tolerance = 0.1;
+  options.rest_length_tolerance = 0.01;
+  const auto indices = [&](std::vector<double> errors) {
+    std::vector<int> found;
+    for (const WorstComponent& w : worst_components(toy, errors, options)) found.push_back(w.index);
+    return found;
+  };
+  CHECK(indices({}) == std::vector<int>{});
+  CHECK(indices({0.0, 0.0, NAN, 0.0, 0.0}) == std::vector<int>{});
+  CHECK(indices({1.0, -3.0, 0.0, 2.0, 0.25}) == std::vector<int>{1, 4, 3, 0});  // the last is a rest length
+  CHECK(indices({3.0, NAN, 0.1, -4.0, 0.5, 0.6, 0.01}) == std::vector<int>{5, 4, 3, 0, 2});
+  CHECK(worst_components(toy, std::vector{0.0, -0.3}, options)[0].error == Approx(3.0));
 }
 
 TEST_CASE("exceptions thrown inside an evaluation come out unchanged", "[unit]") {

@@ -81,7 +81,7 @@ void write_sample(const std::filesystem::path& path) {
                       packed.values.begin() + state.layout().points());
   packed.values.erase(packed.values.begin() + 2 * state.tissue.vertex_count(),
                       packed.values.end() - state.tissue.vertex_count());
-  packed.reference_rest_length.clear();
+  packed.reference_rest_length = {};
   writer.write_stage(Stage::packing, packed);
   const CellField shape{{"shape_parameter", "1", "p^2/(4 pi a)"}, std::vector<double>(state.tissue.cell_count(), 1.2)};
   writer.write_frame(state, {.cell_fields = {shape}, .wound_outline = {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0 / 3.0}}});

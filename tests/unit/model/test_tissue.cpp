@@ -1,8 +1,10 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <utility>
 
 #include "suture/errors.hpp"
+#include "suture/model/state.hpp"
 #include "suture/model/tissue.hpp"
 
 using namespace suture;
@@ -25,6 +27,39 @@ TEST_CASE("a tissue refuses impossible cells", "[unit]") {
   CHECK_THROWS_AS(Tissue({3}, {}, {0.5, 0.5, 0.5}), InputError);
   CHECK_THROWS_AS(Tissue({3}, {CellMaterial{}}, {0.5, 0.5}), InputError);
   CHECK_THROWS_AS(Tissue({3}, {CellMaterial{}}, {0.5, 0.0, 0.5}), InputError);
+}
+
+TEST_CASE("copies of a tissue share their arrays, and one that was moved from stays whole", "[unit]") {
+  Tissue tissue({3, 5}, {CellMaterial{}, CellMaterial{}}, std::vector<double>(8, 0.5));
+  const double* const lengths = tissue.initial_rest_lengths().data();
+  const Tissue copy = tissue, moved = std::move(tissue);
+  CHECK(copy.initial_rest_lengths().data() == lengths);
+  CHECK(moved.initial_rest_lengths().data() == lengths);
+  CHECK(tissue.vertex_count() == 8);
+  const Tissue stiff = copy.with_materials({CellMaterial{}, CellMaterial{.area_stiffness = 40.0}});
+  CHECK(stiff.initial_rest_lengths().data() == lengths);
+  CHECK(stiff.material(1).area_stiffness == 40.0);
+  CHECK(copy.material(1).area_stiffness == 16.0);
+  tissue = stiff.subset({1});  // its own arrays, whoever held the others
+  CHECK(tissue.material(0).area_stiffness == 40.0);
+  CHECK(tissue.initial_rest_length(4) == 0.5);
+  CHECK(Tissue().subset({}).cell_count() == 0);
+  CHECK(Tissue().first_vertex(0) == 0);
+}
+
+TEST_CASE("states share what none of them changes", "[unit]") {
+  TissueState state;
+  state.tissue = Tissue({3}, {CellMaterial{}}, {0.5, 0.6, 0.7});
+  state.reference_rest_length = std::vector{1.0, 2.0, 3.0};
+  const TissueState copy = state;
+  CHECK(copy.reference_rest_length.data() == state.reference_rest_length.data());
+  CHECK(copy.reference_rest_length == SharedValues(std::vector{1.0, 2.0, 3.0}));
+  state.reference_rest_length = std::vector{1.0, 2.0, 4.0};
+  CHECK(copy.reference_rest_length[2] == 3.0);
+  CHECK_FALSE(copy.reference_rest_length == state.reference_rest_length);
+  CHECK_FALSE(copy.reference_rest_length == SharedValues());
+  CHECK(SharedValues(std::vector<double>()) == SharedValues());
+  CHECK(SharedValues().to_vector().empty());
 }
 
 TEST_CASE("the default rest length is the published one", "[unit]") {

@@ -63,6 +63,27 @@ TEST_CASE("preconditioned conjugate gradients solve what a sparse factorisation 
     }
 }
 
+TEST_CASE("setting the preconditioner up disturbs no product, and a product no set-up, though they share room", "[unit]") {
+  for (const auto& [fewest, most] : {std::pair{3, 9}, {24, 40}}) {
+    const TissueState state = stretched(3, {.minimum_vertices = fewest, .maximum_vertices = most, .spacing = 0.95, .roughness = 0.1});
+    TissueOde ode(state.tissue, 0, ode_options(contact_law(contact_distance), SpringLaw::quadratic, false), {});
+    linearise(ode, state, 0.01);
+    const int n = ode.position_count();
+    const Eigen::VectorXd v = wave(n);
+    Eigen::VectorXd product(n), applied(n), again(n);
+    ode.product(span(v), span(product));
+    ode.set_up_preconditioner();
+    ode.precondition(span(v), span(applied));
+    ode.product(span(v), span(again));
+    CHECK(again == product);
+    ode.set_up_preconditioner();
+    ode.precondition(span(v), span(again));
+    CHECK(again == applied);
+    CHECK(product != v);
+    CHECK(applied != v);
+  }
+}
+
 TEST_CASE("the Newton matrix has no contact that is subtracted at a concave corner", "[unit]") {
   Config config;
   config.contact = contact_law(contact_distance);

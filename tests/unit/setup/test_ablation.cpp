@@ -40,8 +40,9 @@ TEST_CASE("The central cells are those nearest the centre, nearest first", "[uni
 TEST_CASE("Removing cells keeps everything of the others", "[unit]") {
   TissueState state = row_of_cells({-3.0, -1.0, 1.0, 3.0});
   state.time = 4.5;
-  state.reference_rest_length.assign(12, 1.0);
-  for (int v = 0; v < 12; ++v) state.reference_rest_length[v] = 2.0 + v;
+  std::vector<double> reference;
+  for (int v = 0; v < 12; ++v) reference.push_back(2.0 + v);
+  state.reference_rest_length = reference;
   const TissueState wounded = remove_cells(state, {2, 0});
   REQUIRE(wounded.tissue.cell_count() == 2);
   CHECK(wounded.time == 4.5);
