@@ -3,26 +3,56 @@
 #include <cvode/cvode.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace suture {
 
 CvodeHistory::CvodeHistory(void* cvode, const VectorFamily& family) : cvode_(cvode), family_(&family) {}
 
-bool CvodeHistory::verified(N_Vector scratch, bool known) {
-  double now, gamma, rl1;
+bool CvodeHistory::find() {
+  double gamma, rl1;
   N_Vector zn0, y, f, zn1;
   void* user;
   int order = 0;
   zn_.clear();
-  if (CVodeGetNonlinearSystemData(cvode_, &now, &zn0, &y, &f, &gamma, &rl1, &zn1, &user) != CV_SUCCESS) return false;
+  if (CVodeGetNonlinearSystemData(cvode_, &now_, &zn0, &y, &f, &gamma, &rl1, &zn1, &user) != CV_SUCCESS) return false;
   if (CVodeGetLastOrder(cvode_, &order) != CV_SUCCESS || CVodeGetLastStep(cvode_, &h_) != CV_SUCCESS) return false;
   const auto first = std::find(family_->members.begin(), family_->members.end(), zn0);
   if (order < 1 || family_->members.end() - first <= order || *(first + 1) != zn1) return false;
   zn_.assign(first, first + order + 1);
+  return true;
+}
+
+bool CvodeHistory::verified(N_Vector scratch, bool known) {
+  if (!find()) return false;
+  const int order = static_cast<int>(zn_.size()) - 1;
   double scale = 1.0;  // j!/h^j
   for (int j = 0; j <= order; scale *= ++j / h_)
-    if ((j == order || !known) && !has_derivative(now, j, scale, scratch)) return false;
+    if ((j == order || !known) && !has_derivative(now_, j, scale, scratch)) return false;
+  return true;
+}
+
+/// The sum over j of s^j zn[j], from the highest on as CVODE adds them, in whole vectors of eight.
+bool CvodeHistory::interpolate(double t, std::span<const int> components, std::span<double> y, std::vector<double>& room) {
+  if (!find()) return false;
+  const std::size_t terms = zn_.size(), n = (components.size() + 7) / 8 * 8;
+  const double s = (t - now_) / h_;
+  room.assign((terms + 1) * n, 0.0);
+  std::array<double, VectorOperations::most_vectors> power;
+  std::array<const double*, VectorOperations::most_vectors> term;
+  for (std::size_t i = 0; i < terms; ++i) {
+    const std::size_t j = terms - 1 - i;
+    const std::span<const double> all = values(zn_[j]);
+    double* const some = room.data() + i * n;
+    for (std::size_t k = 0; k < components.size(); ++k) some[k] = all[components[k]];
+    term[i] = some;
+    power[i] = 1.0;
+    for (std::size_t m = 0; m < j; ++m) power[i] *= s;
+  }
+  double* const sum = room.data() + terms * n;
+  family_->operations.linear_combination(n, static_cast<int>(terms), power.data(), term.data(), sum);
+  for (std::size_t k = 0; k < components.size(); ++k) y[components[k]] = sum[k];
   return true;
 }
 

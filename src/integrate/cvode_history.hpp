@@ -4,6 +4,7 @@
 
 #include <sundials/sundials_nvector.h>
 
+#include <span>
 #include <vector>
 
 #include "integrate/fused_nvector.hpp"
@@ -20,6 +21,8 @@ class CvodeHistory {
   /// Whether zn[0..order] has been found: compares them with CVODE's own derivatives at its present time; with the highest one
   /// only if this instance's array is `known` to be where it was at an event before.
   bool verified(N_Vector scratch, bool known);
+  /// y[k] at t for these components only, with the bits of CVodeGetDky; false if the array is not where it was. Found by verified() before.
+  bool interpolate(double t, std::span<const int> components, std::span<double> y, std::vector<double>& room);
   /// Moves the point of expansion by `shift` (model units of time, within the last step).
   void shift(double shift);
   /// zn[0] = y; the derivatives stay.
@@ -28,12 +31,14 @@ class CvodeHistory {
   double set_rate(N_Vector f, N_Vector weights);
 
  private:
+  bool find();
   /// Whether zn[j] is the j-th derivative at t over `scale`.
   bool has_derivative(double t, int j, double scale, N_Vector scratch) const;
 
   void* cvode_;
   std::vector<N_Vector> zn_;  ///< 0 .. last order
   double h_ = 0.0;            ///< the step the array is scaled with
+  double now_ = 0.0;          ///< CVODE's time
   const VectorFamily* family_;
 };
 

@@ -69,6 +69,7 @@ class CvodeIntegrator final : public Integrator {
   std::int64_t rates_ = 0;
   std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
   std::vector<WorstComponent> unconverged_;  // of MinimisingNewton::obstacle of the last failed solve
+  mutable std::vector<double> room_;  // of interpolate_some
   bool history_known_ = false;  // where CVODE keeps its past has been found at the last event
   EventStep event_step_{2.0};
   double first_step_ = 0.0;  // at most, when an event has just been passed
@@ -260,6 +261,7 @@ void CvodeIntegrator::interpolate(double t, std::span<double> y) const {
 }
 
 void CvodeIntegrator::interpolate_some(double t, std::span<const int> components, std::span<double> y) const {
+  if (history_known_ && CvodeHistory(cvode_, *family_).interpolate(t - offset_, components, y, room_)) return;
   check(CVodeGetDky(cvode_, t - offset_, 0, interpolated_), "CVodeGetDky");
   const std::span<const double> all = values(interpolated_);
   for (const int k : components) y[k] = all[k];
