@@ -149,8 +149,10 @@ void VectorFamily::rearrange(std::span<const int> source) {
       runs.push_back({k, source[k], 1});
   for (N_Vector v : members) {
     Content& c = content(v);
+    const bool unused = std::all_of(c.data, c.data + c.size, [](double a) { return a == 0.0; });  // needs no memory, then
     AlignedBuffer before = std::move(c.buffer);
     c.allocate(source.size());
+    if (unused) continue;
     for (const Run& run : runs) std::copy_n(before.data() + run.from, run.length, c.data + run.to);
   }
 }
