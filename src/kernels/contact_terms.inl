@@ -3,8 +3,8 @@
 //     [0 < t_k < 1] u(segment k)  -  [t_k > 0] u(point k)  +  [t_k >= 1] u(point k + 1),
 // which is zero when the segment is out of reach, so a window may hold any superset of the segments that matter.
 //
-// Nearly every window has one live term. Terms are found with one window per lane and packed one behind the other, so that
-// what is made of them has all lanes in use.
+// Nearly every window has one live term. First terms are found with one window per lane and packed one behind the other, so that
+// what is made of them has all lanes in use; the others, at concave corners, follow one by one.
 
 /// Slots of a term: vertex and first end of the segment, or the point.
 using TermSlots = WindowGroup::Slots;
@@ -12,7 +12,7 @@ using TermSlots = WindowGroup::Slots;
 constexpr int segments = suture::kernels::window_segments, points = segments + 1;
 constexpr int batches = WindowGroup::windows / lanes;
 
-/// The live terms of one group, those of windows with several first.
+/// The live terms of one group, those that are not the first of their window before the others.
 struct LiveTerms {
   static constexpr int room = WindowGroup::windows * suture::kernels::window_terms + lanes;  ///< packing writes beyond the last
   int count = 0;
@@ -75,32 +75,29 @@ SUTURE_INLINE void place(const Shell& s, const ContactScalars& c, const WindowGr
 /// point's is added and not subtracted. Terms out of reach are among them, if not those of the first and the last point.
 struct GroupTerms {
   Bits segment[segments], point[points], added[points];
-  Bits one, several;   ///< windows with one term, with more
-  Bits here[points], any_segment, any_added;  ///< for windows with one term: its number, its kind
+  Bits any, several;   ///< windows with terms, with more than one
+  Bits here[points], first_segment, first_added;  ///< of the first term of a window: its number, its kind
 };
 
 SUTURE_INLINE GroupTerms find_terms(const GroupPlaces& places, const WindowGroup& group, int used) {
   const std::uint64_t known = ~std::uint64_t{0} >> (WindowGroup::windows - used * lanes);
   GroupTerms found;
-  std::uint64_t any = 0;
   const auto take = [&](Bits& kind, int k, std::uint64_t term) {
+    const std::uint64_t first = term & ~found.any.all;
     kind.all = term;
-    found.several.all |= any & term;
-    any |= term;
-    found.here[k].all |= term;
+    found.several.all |= found.any.all & term;
+    found.any.all |= term;
+    found.here[k].all |= first;
+    return first;
   };
   for (int k = 0; k < segments; ++k) {
     const std::uint64_t start = places.after_start[k].all & group.segments[k] & known, end = start & ~places.before_end[k].all;
     const std::uint64_t near = k == 0 ? places.near_first.all : ~std::uint64_t{0};
-    take(found.point[k], k, (start ^ found.added[k].all) & near);
-    take(found.segment[k], k, start & ~end);
+    found.first_added.all |= take(found.point[k], k, (start ^ found.added[k].all) & near) & found.added[k].all;
+    found.first_segment.all |= take(found.segment[k], k, start & ~end);
     found.added[k + 1].all = end;
-    found.any_segment.all |= start & ~end;
-    found.any_added.all |= found.point[k].all & found.added[k].all;
   }
-  take(found.point[segments], segments, found.added[segments].all & places.near_last.all);
-  found.any_added.all |= found.point[segments].all | found.any_segment.all;
-  found.one.all = any & ~found.several.all;
+  found.first_added.all |= take(found.point[segments], segments, found.added[segments].all & places.near_last.all) | found.first_segment.all;
   return found;
 }
 
@@ -115,19 +112,20 @@ SUTURE_INLINE void pack_batch(const ContactScalars& c, const WindowGroup& group,
     next = select(here, bit_pattern(static_cast<long long>(k) << 32), next);
   }
   const Double8 ex = rx - nx, ey = ry - ny;
-  const Double8 t = only(found.any_segment.of(batch), (rx * ex + ry * ey) * inverse(ex * ex + ey * ey));
+  const Double8 t = only(found.first_segment.of(batch), (rx * ex + ry * ey) * inverse(ex * ex + ey * ey));
   rx = rx - t * ex;
   ry = ry - t * ey;
-  const Mask8 live = found.one.of(batch) & less(rx * rx + ry * ry, c.cutoff2);
-  terms.put(bits(live), rx, ry, negate(~found.any_added.of(batch), t), add_bits(load_bits(group.slots + batch * lanes), next));
+  const Mask8 live = found.any.of(batch) & less(rx * rx + ry * ry, c.cutoff2);
+  terms.put(bits(live), rx, ry, negate(~found.first_added.of(batch), t), add_bits(load_bits(group.slots + batch * lanes), next));
 }
 
-/// All terms in reach of a window with several.
+/// All terms in reach of a window with several, but for the first.
 SUTURE_INLINE void append_window(const ContactScalars& c, const WindowGroup& group, int window, const GroupPlaces& places,
                                  const GroupTerms& found, LiveTerms& terms) {
   const int batch = window / lanes, lane = window % lanes;
   const auto x = [&](int k) { return places.dx[batch][k][lane]; };
   const auto y = [&](int k) { return places.dy[batch][k][lane]; };
+  bool first = true;
   const auto put = [&](int k, double rx, double ry, double t) {
     if (!(rx * rx + ry * ry < c.cutoff2)) return;
     const TermSlots slots{group.slots[window].p, group.slots[window].q + k};
@@ -136,8 +134,8 @@ SUTURE_INLINE void append_window(const ContactScalars& c, const WindowGroup& gro
     __builtin_memcpy(terms.slots + at, &slots, sizeof slots);
   };
   for (int k = 0; k < points; ++k) {
-    if (found.point[k].has(window)) put(k, x(k), y(k), found.added[k].has(window) ? 0.0 : -0.0);
-    if (k == segments || !found.segment[k].has(window)) continue;
+    if (found.point[k].has(window) && !std::exchange(first, false)) put(k, x(k), y(k), found.added[k].has(window) ? 0.0 : -0.0);
+    if (k == segments || !found.segment[k].has(window) || std::exchange(first, false)) continue;
     const double ex = x(k) - x(k + 1), ey = y(k) - y(k + 1);
     const double t = (x(k) * ex + y(k) * ey) / (ex * ex + ey * ey);
     put(k, x(k) - t * ex, y(k) - t * ey, t);

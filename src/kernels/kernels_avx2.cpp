@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "kernels/kernels.hpp"
 #include "kernels/vector16.hpp"
