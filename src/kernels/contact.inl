@@ -12,14 +12,14 @@ void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms) {
   typedef double Pair __attribute__((vector_size(16), may_alias));
   alignas(64) double on_vertex[2 * LiveTerms::room], on_first[2 * LiveTerms::room],
       on_second[2 * LiveTerms::room];  // dU/dr of the vertex, and minus that of the segment's ends
-  for (int k = 0; k < terms.count; k += lanes) {
+  const auto make = [&](int k) {
     const Double8 x = load(terms.rx + k), y = load(terms.ry + k), t = load(terms.t + k);
     const Double8 f = with_sign_of(force_over_distance(c, x * x + y * y), t);
     const Double8 fx = f * x, fy = f * y;
     store_even_odd(on_vertex + 2 * k, fx, fy);
     store_even_odd(on_second + 2 * k, t * fx, t * fy);
     store_even_odd(on_first + 2 * k, fx - t * fx, fy - t * fy);
-  }
+  };
   const auto add = [&](int k, int pair) {
     const TermSlots at = terms.at(k);
     Pair *p = reinterpret_cast<Pair*>(s.gradient) + at.p, *q = reinterpret_cast<Pair*>(s.gradient) + at.q;
@@ -27,12 +27,16 @@ void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms) {
     q[0] -= *reinterpret_cast<const Pair*>(on_first + pair);
     q[1] -= *reinterpret_cast<const Pair*>(on_second + pair);
   };
+  // The next eight are made beside these being added, which leaves lanes idle.
+  if (terms.count > 0) make(0);
   int k = 0;
-  for (; k + lanes <= terms.count; k += lanes)
+  for (; k + lanes <= terms.count; k += lanes) {
+    if (k + lanes < terms.count) make(k + lanes);
     for (int m = 0; m < lanes; m += 2) {
       add(k + m, 2 * k + m);
       add(k + m + 1, 2 * k + lanes + m);
     }
+  }
   for (int m = 0; k + m < terms.count; ++m) add(k + m, 2 * k + m % 2 * lanes + m - m % 2);
 }
 
