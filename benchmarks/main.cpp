@@ -49,12 +49,13 @@ int main(int argc, char** argv) {
   if (settings.smoke) settings.repeats = 1;
   for (int k = 0; k < argc; ++k) command_line += fmt::format("{}{}", k == 0 ? "" : " ", argv[k]);
   Report report;
+  int status = 0;
   try {
     measure(settings, report);
-    std::ofstream(json) << report.json(command_line);
   } catch (const std::exception& error) {
     fmt::print(stderr, "suture_benchmark: error: {}\n", error.what());
-    return 3;
+    status = 3;
   }
-  return 0;
+  std::ofstream(json) << report.json(command_line);  // what was measured before an error, too
+  return status;
 }

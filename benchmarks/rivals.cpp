@@ -84,6 +84,19 @@ void compare(const Settings& settings, Report& report, const std::string& name, 
   }
 }
 
+/// A small tissue of finer cells, of the first seed from the configuration's on that can be packed: which one FIRE gives up on is rounding.
+Packed small_wounded(int vertices) {
+  constexpr int most_seeds = 5;
+  std::uint64_t seed = wounded_tissue(true).config.tissue.seed;
+  for (int k = 1;; ++k, ++seed) {
+    try {
+      return wounded_tissue(true, vertices, seed);
+    } catch (const NumericalError&) {
+      if (k == most_seeds) throw;
+    }
+  }
+}
+
 }  // namespace
 
 void measure_rivals(const Settings& settings, Report& report) {
@@ -104,7 +117,7 @@ void measure_rivals(const Settings& settings, Report& report) {
   if (settings.smoke) return;
   for (const int vertices : {30, 60, 120})
     for (const double stiffening : {1.0, 100.0}) {
-      Packed refined = wounded_tissue(true, vertices);
+      Packed refined = small_wounded(vertices);
       refined.config.purse_string.stiffness *= stiffening;
       compare(settings, report, stiffening > 1.0 ? "stiff ring" : "n_v ladder", refined, 0.25 * horizon, stiffening);
     }
