@@ -90,11 +90,13 @@ TEST_CASE("converge on a small wound finds closure times and compares means over
   CHECK(outcome.output.find("the two references differ by") != std::string::npos);
 }
 
+// With 1e-3 a run may take another branch of events than the reference, which rounding decides: arkode did, with 18 restarts for 13 and
+// t_05 off by 0.4, and not with 3e-4. With 1e-4 the worst of six packings has 0.09.
 TEST_CASE("every method closes a small wound, events included", "[cli]") {
   const TemporaryDirectory directory;
   const Outcome outcome = run_suture(SUTURE_PROGRAM,
                                      {"converge", examples + "small.toml", "--quiet", "--out", "out", "--methods", "cvode,rkc2,auto,arkode,adams,euler,verlet,rk4",
-                                      "--tolerances", "1e-3", "--steps", "2e-3", "--seeds", "2", "--reference-tolerance", "1e-5", "--set", "integrator.vertex_mass=0.05",
+                                      "--tolerances", "1e-4", "--steps", "2e-3", "--seeds", "2", "--reference-tolerance", "1e-6", "--set", "integrator.vertex_mass=0.05",
                                       "--set", "purse_string.yield_length=1.6"},  // tethers that break early: some 25 events
                                      directory.path());
   INFO(outcome.errors);
