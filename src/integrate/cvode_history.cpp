@@ -8,18 +8,25 @@
 
 namespace suture {
 
+std::optional<NonlinearSystem> nonlinear_system(void* cvode) {
+  NonlinearSystem s;
+  N_Vector y;
+  void* user;
+  if (CVodeGetNonlinearSystemData(cvode, &s.t, &s.predicted, &y, &s.rate, &s.gamma, &s.rl1, &s.zn1, &user) != CV_SUCCESS) return std::nullopt;
+  return s;
+}
+
 CvodeHistory::CvodeHistory(void* cvode, const VectorFamily& family) : cvode_(cvode), family_(&family) {}
 
 bool CvodeHistory::find() {
-  double gamma, rl1;
-  N_Vector zn0, y, f, zn1;
-  void* user;
+  const std::optional<NonlinearSystem> system = nonlinear_system(cvode_);
   int order = 0;
   zn_.clear();
-  if (CVodeGetNonlinearSystemData(cvode_, &now_, &zn0, &y, &f, &gamma, &rl1, &zn1, &user) != CV_SUCCESS) return false;
+  if (!system) return false;
+  now_ = system->t;
   if (CVodeGetLastOrder(cvode_, &order) != CV_SUCCESS || CVodeGetLastStep(cvode_, &h_) != CV_SUCCESS) return false;
-  const auto first = std::find(family_->members.begin(), family_->members.end(), zn0);
-  if (order < 1 || family_->members.end() - first <= order || *(first + 1) != zn1) return false;
+  const auto first = std::find(family_->members.begin(), family_->members.end(), system->predicted);
+  if (order < 1 || family_->members.end() - first <= order || *(first + 1) != system->zn1) return false;
   zn_.assign(first, first + order + 1);
   return true;
 }

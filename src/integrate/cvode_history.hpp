@@ -4,12 +4,21 @@
 
 #include <sundials/sundials_nvector.h>
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "integrate/fused_nvector.hpp"
 
 namespace suture {
+
+/// What CVODE's nonlinear system is made of: y - psi - gamma f(t, y) = 0 with psi = predicted - rl1 zn1. `rate` is room that CVODE
+/// uses neither during a solve nor between two.
+struct NonlinearSystem {
+  double t, gamma, rl1;
+  N_Vector predicted, rate, zn1;
+};
+std::optional<NonlinearSystem> nonlinear_system(void* cvode);
 
 /// The Nordsieck array zn[j] = h^j y^(j)/j! of a CVODE instance whose vectors are of one family. The array is found
 /// among the family's members behind the two vectors that CVODE's interface names, and every use is checked against

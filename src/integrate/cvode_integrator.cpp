@@ -47,8 +47,7 @@ class CvodeIntegrator final : public Integrator {
   void configure(double t);
   void start_afresh();
   void make_nonlinear_solver();
-  /// CVODE's room for a rate, which it does not use between two calls of the nonlinear solver, and during one leaves to that.
-  N_Vector scratch() const;
+  N_Vector scratch() const;  // until the next solve
   int solve_step(N_Vector correction, double tolerance);
   double after_event(CvodeHistory& history);
   void learn_from_step();
@@ -151,23 +150,18 @@ void CvodeIntegrator::make_nonlinear_solver() {
 }
 
 N_Vector CvodeIntegrator::scratch() const {
-  double t, gamma, rl1;
-  N_Vector predicted, y, rate, zn1;
-  void* user;
-  check(CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &y, &rate, &gamma, &rl1, &zn1, &user), "CVodeGetNonlinearSystemData");
-  return rate;
+  const std::optional<NonlinearSystem> system = nonlinear_system(cvode_);
+  if (!system) throw NumericalError("CVODE: no nonlinear system");
+  return system->rate;
 }
 
 /// One nonlinear solve: y - psi - gamma f(t, y) = 0 with psi = zn[0] - rl1 zn[1], the rest lengths eliminated.
 int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
-  double t, gamma, rl1;
-  N_Vector predicted, yn, psi, zn1;
-  void* user;
-  if (CVodeGetNonlinearSystemData(cvode_, &t, &predicted, &yn, &psi, &gamma, &rl1, &zn1, &user) != CV_SUCCESS)
-    return SUN_NLS_MEM_NULL;
-  t += offset_;
+  const std::optional<NonlinearSystem> system = nonlinear_system(cvode_);
+  if (!system) return SUN_NLS_MEM_NULL;
+  const auto [t, gamma, rl1, predicted, psi, zn1] = *system;
   N_VLinearSum(1.0, predicted, -rl1, zn1, psi);
-  system_->begin_implicit_step(t, gamma, values(psi));
+  system_->begin_implicit_step(t + offset_, gamma, values(psi));
   const std::span<double> out = values(correction), start = values(predicted);
   const std::size_t n = system_->position_count();
   std::copy_n(start.begin(), n, out.begin());

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 #include <string>
+#include <vector>
 
 #include "suture/integrate/integrator.hpp"
 
