@@ -64,10 +64,13 @@ double MinimisingNewton::linearise(double gamma, double fz, bool renew) {
 
 bool MinimisingNewton::too_long(std::span<const double> prediction, const NewtonTarget& target) {
   operations_.linear_sum(n_, 1.0, q_, -1.0, prediction.data(), trial_);  // beyond n_ all is zero
-  if (norm(operations_.dot(padded_, trial_, trial_)) <= target.give_up) return false;
+  return norm(operations_.dot(padded_, trial_, trial_)) > target.give_up;
+}
+
+NewtonResult MinimisingNewton::given_up() {
   std::copy_n(trial_, n_, z_);
   ++counts_.early_exits;
-  return true;
+  return NewtonResult::too_long;
 }
 
 bool MinimisingNewton::secants(double& fz, double wanted) {
@@ -140,23 +143,32 @@ bool MinimisingNewton::line_search() {
   limit_step();
   const double longest = k.add_and_largest(padded_, q_, d_, trial_);
   if (longest > options_.largest_move) k.linear_sum(padded_, options_.largest_move / longest, d_, 0.0, d_, d_);
-  const double slope = k.dot(padded_, f_, d_);
-  // Forces are piecewise linear, so one secant on the directional derivative is nearly exact.
-  double step = 1.0;
-  for (int attempt = 0; attempt < 8; ++attempt) {
+  // The derivative along d is piecewise linear, so secants are nearly exact. Where a contact closes on the way it rises steeply behind
+  // that point, and a secant over the point ends before it, where nothing is known of the contact: so the search goes on.
+  const double slope = k.dot(padded_, f_, d_), enough = 0.5 * std::abs(slope);
+  double low = 0.0, at_low = slope, high = 0.0, at_high = 0.0, step = 1.0;  // high = 0: none yet
+  constexpr int most = 10;
+  for (int trial = 1; trial <= most; ++trial) {
+    if (trial == most && low > 0.0) step = low;  // nothing better is known
     k.linear_sum(padded_, 1.0, q_, step, d_, trial_);
     if (residual(span(trial_), r_) != Evaluation::ok) {
-      step *= 0.25;
+      step = low + 0.25 * (step - low);
       continue;
     }
     const double end = k.dot(padded_, r_, d_);
-    if (end <= 0.5 * std::abs(slope)) {
+    if (end <= enough && (end >= -enough || high == 0.0 || trial == most)) {
       std::swap(q_, trial_);
       std::swap(f_, r_);
       return true;
     }
     if (step < 1e-4) break;
-    step *= std::clamp(-slope / (end - slope), 1e-2, 0.9);
+    if (end < 0.0) {
+      if (low > 0.0) at_high *= 0.5;
+      low = step, at_low = end;
+    } else
+      high = step, at_high = end;
+    const double part = at_low / (at_low - at_high);
+    step = low + std::clamp(part, 0.1, 0.9) * (high - low);
   }
   return false;
 }
@@ -192,9 +204,11 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   const bool tried = options_.maximum_secants > 0 && !options_.always_set_up && norm(fz) > wanted;
   if (tried) {
     const bool moved = secants(fz, wanted);
-    if (moved && too_long(q, target)) return NewtonResult::too_long;
+    const bool far = moved && too_long(q, target);
+    if (far && norm(fz) <= wanted) return given_up();
     if (moved && norm(fz) > wanted) {  // f_ is interpolated
       linearised = false;
+      if (far) std::copy_n(q.data(), n_, q_);  // led astray by contacts that P does not know
       if (residual(span(q_), f_) != Evaluation::ok) return failed();
       fz = precondition_residual();
     }
@@ -213,7 +227,7 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
     ++counts_.iterations;
     conjugate_gradients(fz, std::max(options_.forcing * error, wanted));
     if (!line_search()) return failed();
-    if (too_long(q, target)) return NewtonResult::too_long;
+    if (too_long(q, target)) return given_up();
     fz = precondition_residual();
   }
 }

@@ -62,7 +62,9 @@ class MinimisingNewton {
   double precondition_residual();
   /// At q_. Returns f.z, which a new set-up changes; fz: before. renew: set P up anew unless this solve has done so.
   double linearise(double gamma, double fz, bool renew);
+  /// Leaves the correction in trial_.
   bool too_long(std::span<const double> prediction, const NewtonTarget& target);
+  NewtonResult given_up();  ///< after too_long
   /// Preconditioned nonlinear conjugate gradients (Polak & Ribiere 1969, not below zero) from q_, its residual f_ and
   /// z_ = P^-1 f_. Forces are piecewise linear, so the difference of two residuals is a product with the Hessian: an iteration
   /// costs a residual and an application of P, no second derivatives. Afterwards f_ is interpolated between residuals.

@@ -161,3 +161,39 @@ TEST_CASE("a step that its limits turn uphill is shortened as a whole instead", 
   REQUIRE(newton.solve(0.5, q, generous) == NewtonResult::converged);
   for (std::size_t k = 0; k < q.size(); ++k) CHECK(q[k] == Approx(psi[k] / (1.0 + 0.5 * flow.stiffness(k))).epsilon(1e-3));
 }
+
+TEST_CASE("walls that are met on the way cost iterations, not failures", "[unit]") {
+  // Every component is pushed from 0 towards 1 and meets a wall of its own, a thousand times as stiff as the rest.
+  struct Walls final : ToyFlow {
+    using ToyFlow::ToyFlow;
+    static double place(std::size_t k) { return 0.9 / (1.0 + static_cast<double>(k)); }
+    static constexpr double wall_stiffness() { return 1e3; }
+    Evaluation residual(std::span<const double> q, std::span<double> f) override {
+      at.assign(q.begin(), q.end());
+      for (std::size_t k = 0; k < q.size(); ++k) f[k] = q[k] - 1.0 + wall_stiffness() * std::max(0.0, q[k] - place(k));
+      return Evaluation::ok;
+    }
+    void linearise() override { pressed = at; }
+    void product(std::span<const double> v, std::span<double> out) override {
+      for (std::size_t k = 0; k < v.size(); ++k) out[k] = v[k] * (pressed[k] > place(k) ? 1.0 + wall_stiffness() : 1.0);
+    }
+    std::vector<double> at, pressed;
+  } flow(8);
+  flow.begin_implicit_step(0.0, 1.0, std::vector<double>(9, 1.0));
+  for (const int secants : {0, 20}) {
+    MinimisingNewton newton(flow, {.weight = 1e4, .largest_move = 10.0, .maximum_iterations = 20, .maximum_secants = secants});
+    std::vector<double> q(8, 0.0);
+    REQUIRE(newton.solve(1.0, q, {.tolerance = 1.0, .give_up = 1e15}) == NewtonResult::converged);
+    for (std::size_t k = 0; k < q.size(); ++k)
+      CHECK(q[k] == Approx((1.0 + Walls::wall_stiffness() * Walls::place(k)) / (1.0 + Walls::wall_stiffness())).margin(1e-4));
+    CAPTURE(secants, newton.counts().iterations, newton.counts().residuals);
+    CHECK(newton.counts().iterations <= 20);
+    CHECK(newton.counts().residuals <= 100);
+  }
+  // From close to the solution, secants that P misleads go farther than the error test allows: the solve begins again, by Newton's method.
+  MinimisingNewton careful(flow, {.weight = 1e4, .largest_move = 10.0});
+  std::vector<double> q(8);
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] = Walls::place(k) - 1e-4;
+  CHECK(careful.solve(1.0, q, {.tolerance = 1.0, .give_up = 100.0}) == NewtonResult::converged);
+  CHECK(careful.counts().early_exits == 0);
+}
