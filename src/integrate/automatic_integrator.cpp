@@ -1,5 +1,6 @@
 // RKC2 or CVODE, whichever the stiffness at hand makes cheaper. The choice depends on counted evaluations and on the step,
 // never on a clock, so a run can be repeated.
+#include <algorithm>
 #include <cmath>
 
 #include "integrate/cvode_integrator.hpp"
@@ -11,6 +12,14 @@ namespace {
 
 constexpr int probation = 8;       // steps over which a method is judged
 constexpr double hysteresis = 0.5; // RKC2 comes back only where it would clearly stay
+constexpr double forgetting = 0.9; // per judgement: what is kept of the memory of a dear CVODE
+
+/// What CVODE's steps cost in evaluations of RKC2, which are dearer than bare ones by RKC2's own sums (measured at 1350 vertices,
+/// docs/benchmarks.md; the shares depend little on size).
+double as_explicit_rates(const Statistics& s) {
+  return 0.8 * static_cast<double>(s.rate_evaluations) + 0.7 * static_cast<double>(s.linear_iterations) +
+         0.5 * static_cast<double>(s.hessian_builds) + 1.4 * static_cast<double>(s.preconditioner_setups) + 1.3 * static_cast<double>(s.steps);
+}
 
 class AutomaticIntegrator final : public Integrator {
  public:
@@ -45,25 +54,35 @@ class AutomaticIntegrator final : public Integrator {
   std::unique_ptr<Integrator> current_;
   bool explicit_ = true;
   double stiffness_ = 0.0;  // spectral radius that RKC2's stages amounted to when it was left
+  double dear_ = 0.0;       // what a step of CVODE cost when it was left, as time goes by
   Statistics before_;       // of the methods before the present one
   Statistics judged_;       // of the present one, when it was last judged
   double judged_time_ = time();
 };
 
 /// Between steps, so that the last step of the old method can be interpolated until the next is asked for. RKC2 with s
-/// stages is stable to h rho = 0.65 s^2, hence the stages it would need for CVODE's steps.
+/// stages is stable to h rho = 0.65 s^2, hence the stages it would need for CVODE's steps. Where contacts open and close in every
+/// step, CVODE may cost more than these.
 void AutomaticIntegrator::judge() {
   const Statistics now = current_->statistics();
   if (now.steps < judged_.steps + probation) return;
   const auto steps = static_cast<double>(now.steps - judged_.steps);
-  const double stages = static_cast<double>(now.rate_evaluations - judged_.rate_evaluations) / steps;
+  const double rates = static_cast<double>(now.rate_evaluations - judged_.rate_evaluations) / steps;
+  const double cost = (as_explicit_rates(now) - as_explicit_rates(judged_)) / steps;
   const double step = (time() - judged_time_) / steps;
   judged_ = now;
   judged_time_ = time();
   if (!(step > 0.0) || !(last_step() > 0.0)) return;
-  if (explicit_) stiffness_ = 0.65 * stages * stages / step;
-  const double wanted = explicit_ ? stages : std::sqrt(stiffness_ * step / 0.65);
-  if (explicit_ ? wanted > options_.switch_stages : wanted < hysteresis * options_.switch_stages) change();
+  if (explicit_) {
+    stiffness_ = 0.65 * rates * rates / step;
+    dear_ *= forgetting;
+    if (rates > std::max(options_.switch_stages, dear_)) change();
+  } else {
+    const double stages = std::sqrt(stiffness_ * step / 0.65);
+    if (!(stages < hysteresis * std::max(options_.switch_stages, cost))) return;
+    dear_ = cost;
+    change();
+  }
 }
 
 void AutomaticIntegrator::change() {
