@@ -17,7 +17,7 @@ ProgressLine::~ProgressLine() {
 std::string ProgressLine::remaining(double fraction) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - stage_start_).count();
   const double gained = fraction - first_fraction_;  // a resumed stage begins in the middle
-  if (gained < 0.01 || elapsed < 0.5) return "";
+  if (gained < 0.01 || elapsed < 0.5 || fraction >= 1.0) return "";
   const double left = elapsed * (1.0 - fraction) / gained;
   return left < 90.0 ? fmt::format(", about {:.0f} s left", left) : fmt::format(", about {:.0f} min left", left / 60.0);
 }
@@ -27,7 +27,7 @@ void ProgressLine::update(std::string_view stage, double fraction, std::string_v
   const auto now = Clock::now();
   if (new_stage) stage_ = stage, stage_start_ = now, first_fraction_ = fraction;
   const auto interval = terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(10000);
-  if (!new_stage && now - last_shown_ < interval) return;
+  if (!new_stage && fraction < 1.0 && now - last_shown_ < interval) return;
   last_shown_ = now;
   fraction = std::clamp(fraction, 0.0, 1.0);
   const std::string body = fmt::format("{:<9} {:5.1f} %  {}{}", stage, 100.0 * fraction, text, remaining(fraction));

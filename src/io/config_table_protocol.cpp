@@ -29,7 +29,8 @@ void add_packing_keys(std::vector<ConfigKey<Config>>& rows) {
   add(key<&C::packing, &P::step_tolerance>(section, "step_tolerance", force, positive,
                                            "largest force component left before the next compression step"));
   add(key<&C::packing, &P::force_tolerance>(section, "force_tolerance", force, positive,
-                                            "largest force component of the finished packing"));
+                                            "largest force component of the finished packing; one that runs out of iterations below step_tolerance is "
+                                            "accepted, and the log says so"));
   add(key<&C::packing, &P::maximum_iterations>(section, "maximum_iterations", pure_number,
                                                between(1, largest_integer), "FIRE iterations allowed per minimisation"));
   add(key<&C::packing, &P::attempts>(section, "attempts", pure_number, between(1, 1000),

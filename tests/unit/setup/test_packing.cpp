@@ -125,6 +125,20 @@ TEST_CASE("Packings that make no sense are refused in words", "[unit]") {
   CHECK(refused > 0);
 }
 
+TEST_CASE("A finished packing without the last digits is accepted, and the log says so", "[unit]") {
+  Config config = small_config();
+  config.packing.force_tolerance = 1e-14;  // lost to rounding
+  std::string last;
+  const auto listen = [&](std::string_view, double, std::string_view text) { last = text; };
+  const Packing packing = make_packing(config, listen);
+  CHECK(packing.report.fraction == Approx(config.packing.final_fraction).margin(5e-3));
+  CHECK(packing.report.largest_force > config.packing.force_tolerance);
+  CHECK(packing.report.largest_force <= config.packing.step_tolerance);
+  CHECK_THAT(last, Catch::Contains("above packing.force_tolerance"));
+  config.packing.step_tolerance = config.packing.force_tolerance;
+  CHECK_THROWS_WITH(make_packing(config), Catch::Contains("packing.maximum_iterations"));
+}
+
 TEST_CASE("Progress of a packing runs from 0 to 1", "[unit]") {
   std::vector<double> fractions;
   make_packing(small_config(), [&](std::string_view stage, double fraction, std::string_view text) {
