@@ -82,11 +82,20 @@ TissueState with_ring(const Config& config, const TissueState& wounded) {
 void set_material(Packed& problem, double area_stiffness, double tau) {
   problem.config.area.stiffness = area_stiffness;
   problem.config.plasticity.tau = tau;
+  set_material(problem);
+}
+
+void set_material(Packed& problem) {
+  const Config& config = problem.config;
   std::vector<CellMaterial> materials;
   for (int c = 0; c < problem.state.tissue.cell_count(); ++c) {
-    materials.push_back(problem.state.tissue.material(c));
-    materials.back().area_stiffness = area_stiffness;
-    materials.back().tau = tau;
+    CellMaterial material = problem.state.tissue.material(c);
+    material.area_stiffness = config.area.stiffness;
+    material.membrane_stiffness = config.membrane.stiffness;
+    material.bending_stiffness = config.bending.stiffness;
+    material.tau = config.plasticity.tau;
+    material.memory = config.plasticity.memory;
+    materials.push_back(material);
   }
   problem.state.tissue = problem.state.tissue.with_materials(std::move(materials));
 }

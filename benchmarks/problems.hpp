@@ -37,6 +37,8 @@ Packed wounded_tissue(bool small, std::optional<int> vertices = {}, std::optiona
 TissueState with_ring(const Config& config, const TissueState& wounded);
 /// Sets k_a and tau in the configuration and in the material of every cell.
 void set_material(Packed& problem, double area_stiffness, double tau);
+/// Gives every cell the material of the configuration.
+void set_material(Packed& problem);
 
 std::unique_ptr<TissueOde> make_ode(const Config& config, const TissueState& state);
 
