@@ -202,15 +202,15 @@ NewtonResult MinimisingNewton::solve(double gamma, std::span<double> q, const Ne
   }
   double fz = precondition_residual();
   const bool tried = options_.maximum_secants > 0 && !options_.always_set_up && norm(fz) > wanted;
-  if (tried) {
-    const bool moved = secants(fz, wanted);
-    const bool far = moved && too_long(q, target);
-    if (far && norm(fz) <= wanted) return given_up();
-    if (moved && norm(fz) > wanted) {  // f_ is interpolated
+  if (tried && secants(fz, wanted)) {
+    const bool far = too_long(q, target);
+    if (norm(fz) > wanted) {  // f_ is interpolated
       linearised = false;
       if (far) std::copy_n(q.data(), n_, q_);  // led astray by contacts that P does not know
       if (residual(span(q_), f_) != Evaluation::ok) return failed();
       fz = precondition_residual();
+    } else if (far) {
+      return given_up();
     }
   }
   for (int iteration = 0;; ++iteration) {
