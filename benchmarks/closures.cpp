@@ -33,6 +33,7 @@ bool measure_closure(const std::string& name, const Config& config, const Tissue
   Measurement m{"closures", name, {}, {}};
   m.parameters = {{"k_a", config.area.stiffness}, {"tau", config.plasticity.tau}, {"horizon", config.run.end_time}, {"tolerance", config.integrator.tolerance},
                   {"seed", static_cast<double>(config.tissue.seed)}};
+  if (config.integrator.method == Method::euler) m.parameters.emplace_back("time_step", *config.integrator.time_step);
   try {
     timing = time_calls(repeats, [&] {
       AreaObserver observer;
@@ -42,12 +43,10 @@ bool measure_closure(const std::string& name, const Config& config, const Tissue
     });
   } catch (const NumericalError&) {
     m.values = {{"failed", 1.0}};
-    if (config.integrator.method == Method::euler) m.values.emplace_back("time_step", *config.integrator.time_step);
     report.add(std::move(m));
     return false;
   }
   m.values = {{"seconds", timing.median}, {"fastest_s", timing.fastest}, {"end", last.series().time.back()}, {"area_end", last.series().area.back()}, {"events", last.events()}};
-  if (config.integrator.method == Method::euler) m.values.emplace_back("time_step", *config.integrator.time_step);
   append_counts(m, result.statistics);
   report.add(std::move(m));
   return true;

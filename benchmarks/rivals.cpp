@@ -85,9 +85,9 @@ void compare(const Settings& settings, Report& report, const std::string& name, 
     const Run& run = *found;
     if (method == Method::euler) euler_seconds = run.seconds;
     if (method == Method::rkc2) rkc2_seconds = run.seconds;
-    m.values = {{"tolerance_or_step", run.value}, {"error", run.error}, {"seconds", run.seconds},
-                {"euler_over_this", euler_seconds / run.seconds}, {"this_over_rkc2", run.seconds / std::max(rkc2_seconds, 1e-30)}};
-    if (method == Method::euler) m.values.pop_back();
+    m.values = {{"tolerance_or_step", run.value}, {"error", run.error}, {"seconds", run.seconds}};
+    if (euler_seconds > 0.0) m.values.emplace_back("euler_over_this", euler_seconds / run.seconds);  // unless Euler failed
+    if (rkc2_seconds > 0.0) m.values.emplace_back("this_over_rkc2", run.seconds / rkc2_seconds);     // not of Euler, which comes first
     append_counts(m, run.statistics);
     report.add(std::move(m));
   }

@@ -14,8 +14,8 @@ constexpr int probation = 8;       // steps over which a method is judged
 constexpr double hysteresis = 0.5; // RKC2 comes back only where it would clearly stay
 constexpr double forgetting = 0.9; // per judgement: what is kept of the memory of a dear CVODE
 
-/// What CVODE's steps cost in evaluations of RKC2, which are dearer than bare ones by RKC2's own sums (measured at 1350 vertices,
-/// docs/benchmarks.md; the shares depend little on size).
+/// What CVODE's steps cost in evaluations of RKC2, which are dearer than bare ones by RKC2's own sums: from the times of the parts at
+/// 1350 vertices (docs/benchmarks.md, "The other parts" and "Equal error").
 double as_explicit_rates(const Statistics& s) {
   return 0.8 * static_cast<double>(s.rate_evaluations) + 0.7 * static_cast<double>(s.linear_iterations) +
          0.5 * static_cast<double>(s.hessian_builds) + 1.4 * static_cast<double>(s.preconditioner_setups) + 1.3 * static_cast<double>(s.steps);

@@ -165,8 +165,9 @@ bool MinimisingNewton::line_search() {
     if (end < 0.0) {
       if (low > 0.0) at_high *= 0.5;
       low = step, at_low = end;
-    } else
+    } else {
       high = step, at_high = end;
+    }
     const double part = at_low / (at_low - at_high);
     step = low + std::clamp(part, 0.1, 0.9) * (high - low);
   }
