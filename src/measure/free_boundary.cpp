@@ -229,15 +229,15 @@ void FreeBoundary::trace(const Tissue& tissue, const StateView& state) {
 const Membrane& FreeBoundary::membrane() const { return impl_->membrane; }
 std::span<const BoundaryLoop> FreeBoundary::loops() const { return impl_->loops; }
 const Exposure& FreeBoundary::exposure() const { return impl_->exposure; }
-bool FreeBoundary::left_out_meets(const BoundingBox& box) const {
+bool FreeBoundary::left_out_meets(std::span<const Point> outline) const {
   const std::span<const Piece> pieces = impl_->boundary.pieces();
-  const double reach = impl_->rho;
+  const BoundingBox box = bounding_box(outline);
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    const auto [x, x_end] = std::minmax(pieces[k].start.x, pieces[k].end.x);
-    const auto [y, y_end] = std::minmax(pieces[k].start.y, pieces[k].end.y);
-    if (impl_->loop_of[k] == left_out && x - reach <= box.x_high && x_end + reach >= box.x_low && y - reach <= box.y_high &&
-        y_end + reach >= box.y_low)
-      return true;
+    if (impl_->loop_of[k] != left_out) continue;
+    const auto [start, end] = std::pair(pieces[k].start, pieces[k].end);
+    const double reach = impl_->rho + std::hypot(end.x - start.x, end.y - start.y);  // an arc stays within its radius of its chord
+    if (start.x < box.x_low - reach || start.x > box.x_high + reach || start.y < box.y_low - reach || start.y > box.y_high + reach) continue;
+    if (contains(outline, start) || squared_distance_to_outline(outline, start) <= reach * reach) return true;
   }
   return false;
 }

@@ -104,7 +104,7 @@ const std::optional<Wound>& WoundNeighbourhood::update(const Tissue& tissue, con
   }
   look(tissue, state);
   if (cells_.empty()) return wound_;
-  if (wound_ && lies_inside(around(*wound_, 0.5 * margin_), region_) && !tracker_.boundary().left_out_meets(bounding_box(former->outline)))
+  if (wound_ && lies_inside(around(*wound_, 0.5 * margin_), region_) && !tracker_.boundary().left_out_meets(former->outline))
     return wound_;
   look_at_all();
   tracker_.follow(*former);

@@ -50,8 +50,8 @@ class FreeBoundary {
   /// Valid until the next evaluation, like everything below. Largest enclosed area first.
   std::span<const BoundaryLoop> loops() const;
   const Exposure& exposure() const;  ///< by probe_disc
-  /// Whether something of a loop that was left out comes within a probe's radius of this box.
-  bool left_out_meets(const BoundingBox& box) const;
+  /// Whether something of a loop that was left out lies inside this outline or within a probe's radius of it.
+  bool left_out_meets(std::span<const Point> outline) const;
   /// Largest distance between an end and the start it was linked to: rounding, about 1e-8, unless cells have been
   /// pushed through each other.
   double largest_gap() const;
