@@ -65,7 +65,7 @@ class CvodeIntegrator final : public Integrator {
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
   double offset_ = 0.0;  // time - CVODE's time: CVODE cannot step back to an event inside its last step
-  std::int64_t rates_ = 0;
+  std::int64_t rates_ = 0, jumps_ = 0;
   std::int64_t forgotten_steps_ = 0, forgotten_failures_ = 0;  // when CVODE was started afresh
   std::vector<WorstComponent> unconverged_;  // of MinimisingNewton::obstacle of the last failed solve
   mutable std::vector<double> room_;  // of interpolate_some
@@ -171,6 +171,10 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
   const NewtonTarget target{.tolerance = tolerance, .give_up = 1.2 * ratio * tolerance / nonlinear_coefficient};
   if (newton_.solve(gamma, out.first(n), target) != NewtonResult::converged) {
     unconverged_ = worst_components(*system_, newton_.obstacle(), options_);
+    return SUN_NLS_CONV_RECVR;
+  }
+  if (system_->jumps(values(y_), out)) {
+    ++jumps_;
     return SUN_NLS_CONV_RECVR;
   }
   system_->recover_memory(out.first(n), out.subspan(n));
@@ -308,7 +312,7 @@ Statistics CvodeIntegrator::statistics() const {
   s.hessian_builds = n.hessians;
   s.preconditioner_setups = n.setups;
   s.error_test_failures = forgotten_failures_ + error_fails + n.early_exits;  // an early exit stands in for a failed error test
-  s.convergence_failures = n.failures;
+  s.convergence_failures = n.failures + jumps_;
   return s;
 }
 

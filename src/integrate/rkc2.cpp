@@ -142,6 +142,7 @@ double Rkc2::step(double limit) {
     if (!last && time_ + 2.0 * h > limit) h = 0.5 * (limit - time_);  // two equal steps rather than one and a remainder
     refused = !attempt(h);
     const double error = refused ? 0.0 : error_norm(h);
+    if (!refused && error <= 1.0) refused = system_->jumps(y_, y_next_);
     if (!refused && error <= 1.0) {
       control_.next(h, error, h < control_.step());
       ++steps_since_radius_;

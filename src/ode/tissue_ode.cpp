@@ -7,6 +7,7 @@
 #include "ode/block_list.hpp"
 #include "ode/cell_preconditioner.hpp"
 #include "ode/contact_factors.hpp"
+#include "ode/membrane_crossing.hpp"
 #include "ode/tissue_gradient.hpp"
 #include "ode/sparse_direct.hpp"
 #include "suture/errors.hpp"
@@ -82,6 +83,18 @@ int TissueOde::size() const { return impl_->layout.size(); }
 int TissueOde::position_count() const { return impl_->layout.positions(); }
 std::string TissueOde::refusal() const { return impl_->refusal; }
 long TissueOde::list_rebuilds() const { return impl_->rebuilds; }
+
+bool TissueOde::jumps(std::span<const double> before, std::span<const double> after) {
+  constexpr double resolved = 0.2;  // of the contact distance: two vertices that move so far do not get from one side of a contact to the other
+  const Impl& m = *impl_;
+  const std::size_t points = m.layout.points(), vertices = m.layout.vertices;
+  const double far = resolved * *m.options.contact.distance;
+  if (m.kernel.largest_move2(vertices, &after[0], &after[points], &before[0], &before[points]) < far * far) return false;
+  const int vertex = vertex_through_membrane(m.tissue, m.padded, m.list, before.first(2 * points), after.first(2 * points));
+  if (vertex < 0) return false;
+  impl_->refusal = m.tissue.vertex_name(vertex) + " went through the membrane of another cell in one step";
+  return true;
+}
 
 std::string TissueOde::component_name(int i) const {
   const StateLayout& l = impl_->layout;

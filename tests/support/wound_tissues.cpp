@@ -97,6 +97,18 @@ TissueState wounded_honeycomb(double noise, unsigned seed) {
   return state;
 }
 
+std::vector<int> vertices_inside_other_cells(const TissueState& state) {
+  const StateView view = state.view();
+  std::vector<int> found;
+  for (int cell = 0; cell < state.tissue.cell_count(); ++cell) {
+    Polygon outline;
+    for (int v = state.tissue.first_vertex(cell); v < state.tissue.end_vertex(cell); ++v) outline.push_back({view.x[v], view.y[v]});
+    for (int v = 0; v < state.tissue.vertex_count(); ++v)
+      if (state.tissue.cell_of(v) != cell && contains(outline, {view.x[v], view.y[v]})) found.push_back(v);
+  }
+  return found;
+}
+
 void shake(TissueState& state, double amplitude, unsigned seed) {
   std::mt19937 engine(seed);
   std::uniform_real_distribution<double> uniform(-amplitude, amplitude);

@@ -41,6 +41,9 @@ std::vector<Polygon> honeycomb(const Honeycomb& honeycomb);
 /// `noise` in x and y.
 TissueState wounded_honeycomb(double noise = 0.0, unsigned seed = 1);
 
+/// Vertices that lie inside the outline of another cell: none, unless cells have been pushed through each other.
+std::vector<int> vertices_inside_other_cells(const TissueState& state);
+
 /// Moves every vertex at random by up to `amplitude` in x and y.
 void shake(TissueState& state, double amplitude, unsigned seed);
 /// Rotates about the origin, then translates.

@@ -39,6 +39,8 @@ class TissueOde final : public GradientFlowSystem {
   // OdeSystem
   int size() const override;
   Evaluation rate(double t, std::span<const double> y, std::span<double> out) override;
+  /// Whether a vertex has gone through the membrane of another cell by a move that no contact could resist.
+  bool jumps(std::span<const double> before, std::span<const double> after) override;
   std::string component_name(int i) const override;
   int position_count() const override;
   std::string refusal() const override;
