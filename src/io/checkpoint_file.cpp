@@ -15,7 +15,6 @@ namespace suture {
 namespace {
 
 constexpr std::uint64_t mark = 0x5043455255545553;  // "SUTURECP"
-constexpr std::uint64_t version = 3;
 constexpr std::size_t head_size = 24, tail_size = 8;
 
 void append_number(std::string& out, std::uint64_t value) { out.append(reinterpret_cast<const char*>(&value), sizeof value); }
@@ -37,7 +36,7 @@ void write_checkpoint(const std::filesystem::path& directory, std::string_view p
   std::string bytes;
   bytes.reserve(head_size + payload.size() + tail_size);
   append_number(bytes, mark);
-  append_number(bytes, version);
+  append_number(bytes, checkpoint_version);
   append_number(bytes, payload.size());
   bytes += payload;
   append_number(bytes, content_hash(bytes));
@@ -68,7 +67,7 @@ std::string read_checkpoint(const std::filesystem::path& path) {
   bytes.resize(file.read_at(0, std::as_writable_bytes(std::span(bytes.data(), bytes.size()))));
   const auto refuse = [&path](const char* why) { throw FileError(fmt::format("{}: {}", path.string(), why)); };
   if (bytes.size() < head_size + tail_size || number_at(bytes, 0) != mark) refuse("it is not a checkpoint, or cut short");
-  if (number_at(bytes, 8) != version) refuse("it was written by another version of suture");
+  if (number_at(bytes, 8) != checkpoint_version) refuse("it was written by another version of suture");
   if (number_at(bytes, 16) != bytes.size() - head_size - tail_size) refuse("it is cut short");
   const std::uint64_t hash = number_at(bytes, bytes.size() - tail_size);
   bytes.resize(bytes.size() - tail_size);

@@ -4,6 +4,7 @@
 //     8 bytes "SUTURECP", u64 version, u64 length, the payload, u64 hash of everything before it
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,6 +12,9 @@
 #include <vector>
 
 namespace suture {
+
+/// To be raised whenever something is stored that was not before.
+inline constexpr std::uint64_t checkpoint_version = 4;
 
 std::filesystem::path checkpoint_path(const std::filesystem::path& directory);
 std::filesystem::path previous_checkpoint_path(const std::filesystem::path& directory);

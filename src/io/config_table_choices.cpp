@@ -41,9 +41,9 @@ constexpr std::array gap_laws{
            "the distance across the first of them only, as an older state of the published program did; validation only"),
 };
 constexpr std::array event_handlings{
-    choice("auto", EventHandling::automatic, "located while events are rare, on the event grid once they storm"),
+    choice("auto", EventHandling::automatic, "located, but on the event grid while they storm (storm_rate)"),
     choice("automatic", EventHandling::automatic),
-    choice("located", EventHandling::located, "each event is located in time"),
+    choice("located", EventHandling::located, "each breaking, change of mode and capture is located in time"),
     choice("grid", EventHandling::grid, "events are processed at multiples of event_interval"),
     choice("each_step", EventHandling::each_step, "after every integrator step, as the published simulations did"),
 };

@@ -83,7 +83,10 @@ std::vector<ConfigKey<Config>> purse_string_keys() {
                                          "rest length of the spring that closes the gap when neighbouring tethers break together"),
       key<&C::purse_string, &P::event_handling>(section, "event_handling", pure_number, anything,
                                                 "when breaking and capture of tethers are processed"),
-      key<&C::purse_string, &P::event_interval>(section, "event_interval", time, positive, "spacing of the event grid"),
+      key<&C::purse_string, &P::event_interval>(section, "event_interval", time, positive,
+                                                "spacing of the event grid; located: how long after its tether broke a vertex is captured again, at the earliest"),
+      key<&C::purse_string, &P::storm_rate>(section, "storm_rate", pure_number, positive,
+                                            "tethers that break or change their mode per unit of time sqrt(a0)/omega, in this or the last unit, beyond which event_handling \"auto\" turns to the grid"),
   };
 }
 

@@ -9,9 +9,7 @@
 
 namespace suture {
 
-Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, double radius) {
-  const MembraneSegment& before = grid[tissue.previous(vertex)];
-  const MembraneSegment& after = grid[vertex];
+Point probe_centre(const MembraneSegment& before, const MembraneSegment& after, double radius) {
   double nx = before.uy + after.uy, ny = -before.ux - after.ux;
   const double squared_norm = nx * nx + ny * ny;
   // A membrane folded back on itself has no bisector: its tip points along the incoming segment.
@@ -19,6 +17,10 @@ Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, do
   if (squared_norm < folded) return {after.ax + radius * before.ux, after.ay + radius * before.uy};
   const double scale = radius / std::sqrt(squared_norm);
   return {after.ax + scale * nx, after.ay + scale * ny};
+}
+
+Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, double radius) {
+  return probe_centre(grid[tissue.previous(vertex)], grid[vertex], radius);
 }
 
 bool inside_other_cell(const Tissue& tissue, const StateView& state, const SegmentGrid& grid, int own_cell, Point p) {

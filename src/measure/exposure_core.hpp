@@ -9,7 +9,8 @@ namespace suture {
 /// Buckets a little larger than a segment: most segments are filed once, few strangers are visited.
 inline double grid_bucket_size(const Membrane& membrane) { return 1.2 * membrane.contact_distance; }
 
-/// Centre of the disc of this radius that touches the membrane at the vertex from outside, on the bisector.
+/// Centre of the disc of this radius that touches the membrane from outside where these segments meet, on the bisector.
+Point probe_centre(const MembraneSegment& before, const MembraneSegment& after, double radius);
 Point probe_centre(const Tissue& tissue, const SegmentGrid& grid, int vertex, double radius);
 
 /// Whether p lies inside a cell other than own_cell (-1: any cell).

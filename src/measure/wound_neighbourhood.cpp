@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+
+#include "measure/exposure_core.hpp"
 
 namespace suture {
 
@@ -117,6 +120,38 @@ const std::vector<char>& WoundNeighbourhood::exposed(const Tissue& tissue, const
   scatter(tissue, expose(watched, gather(state)).exposed);
   if (cells_.empty()) tracker_.release_memory();  // of the whole tissue
   return exposed_;
+}
+
+bool WoundNeighbourhood::surely_uncovers_nobody(const Tissue& tissue, const StateView& state) {
+  if (cells_.empty() || !part_) return false;
+  gather(state);
+  const Exposure& last = tracker_.boundary().exposure();
+  if (last.exposed.size() != vertex_.size()) return false;
+  const Tissue& watched = part(tissue);
+  for (int cell = 0; cell < watched.cell_count(); ++cell)
+    for (int v = watched.first_vertex(cell); v < watched.end_vertex(cell); ++v) {
+      if (last.exposed[v]) continue;
+      const bool was_out = last.margin[v] == 0.0 && last.blocker[v] < 0;
+      const bool is_out = x_[v] < region_.x_low || x_[v] > region_.x_high || y_[v] < region_.y_low || y_[v] > region_.y_high;
+      if (!(was_out && is_out) && !surely_covered(watched, v, last.blocker[v])) return false;
+    }
+  return true;
+}
+
+MembraneSegment WoundNeighbourhood::segment(const Tissue& watched, int v) const {
+  const int w = watched.next(v);
+  const double ex = x_[w] - x_[v], ey = y_[w] - y_[v], length = std::hypot(ex, ey);
+  return {x_[v], y_[v], ex / length, ey / length, length, watched.cell_of(v)};
+}
+
+/// By `blocker`, a segment of another cell, or one of its neighbours.
+bool WoundNeighbourhood::surely_covered(const Tissue& watched, int v, int blocker) const {
+  if (blocker < 0 || watched.cell_of(blocker) == watched.cell_of(v)) return false;
+  constexpr double rounding = 1e-6;
+  const double radius = tracker_.boundary().membrane().probe_radius(), limit = radius * radius * (1.0 - rounding);
+  const Point centre = probe_centre(segment(watched, watched.previous(v)), segment(watched, v), radius);
+  const auto covers = [&](int s) { return segment(watched, s).squared_distance(centre.x, centre.y) < limit; };
+  return covers(blocker) || covers(watched.previous(blocker)) || covers(watched.next(blocker));
 }
 
 const std::vector<char>& WoundNeighbourhood::scatter(const Tissue& tissue, const std::vector<char>& found) {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <utility>
 
+#include "simulate/bracket.hpp"
+
 namespace suture {
 
 namespace {
-
-constexpr double storm_rate = 10.0;  // located events per unit of time beyond which locating costs more than it saves
 
 void add_point(const StateLayout& layout, int point, std::vector<int>& components) {
   components.push_back(layout.x(point));
@@ -22,6 +22,10 @@ void add_tethers(const TissueState& state, std::vector<int>& components) {
     add_point(layout, layout.ring_point(j), components);
     add_point(layout, state.purse_string.vertex[j], components);
   }
+}
+
+double time_resolution(const Integrator& integrator) {
+  return std::max(1e-6 * integrator.last_step(), 1e-12 * std::abs(integrator.time()));
 }
 
 }  // namespace
@@ -55,7 +59,7 @@ void StormGauge::count(double t, int events) {
   }
   in_window_ += events;
   const bool before = storming_;
-  storming_ = static_cast<double>(std::max(in_window_, in_last_window_)) > storm_rate;
+  storming_ = static_cast<double>(std::max(in_window_, in_last_window_)) > storm_rate_;
   if (storming_ && !before) ++storms_;
 }
 
@@ -70,32 +74,55 @@ ClosureEvents::ClosureEvents(const Config& config, const Membrane& membrane, dou
       thresholds_(tether_thresholds(config.purse_string, membrane.contact_distance)),
       start_(start_time),
       interval_(config.purse_string.event_interval),
-      gauge_(config.purse_string.event_handling),
-      search_(membrane, config.purse_string.search_steps, config.purse_string.capture_steps) {}
+      gauge_(config.purse_string.event_handling, config.purse_string.storm_rate),
+      search_(membrane, config.purse_string.search_steps, config.purse_string.capture_steps),
+      exposure_(membrane) {}
 
-/// Earliest crossing of any watched event function inside the step, by bisection on the interpolant. A tether that
-/// crosses and comes back within one step is not an event: the step's own accuracy does not resolve it.
-std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, const TissueState& state) {
+/// The state in the components watched_, at a time inside the step that began at `start`.
+StateView ClosureEvents::watched_at(double t, const Integrator& integrator, const TissueState& start) {
+  if (t <= start.time) return start.view();
+  if (t >= integrator.time()) return StateView(start.layout(), integrator.state());
+  integrator.interpolate_some(t, watched_, values_);
+  return StateView(start.layout(), values_);
+}
+
+/// Earliest crossing of the event function of a tether that has an event due at the end of the step. A tether that crosses and comes
+/// back within one step is not an event: the step's own accuracy does not resolve it.
+std::optional<DueEvents> ClosureEvents::locate_tethers(const Integrator& integrator, const TissueState& state) {
   const StateLayout layout = state.layout();
-  std::vector<RingEvent> due = due_events(state.purse_string, StateView(layout, integrator.state()), thresholds_);
-  if (due.empty()) return std::nullopt;
-  double low = integrator.time() - integrator.last_step(), high = integrator.time();
-  if (parameters_.event_handling == EventHandling::each_step) return DueEvents{high, std::move(due), false};
-  const double resolution = std::max(1e-6 * integrator.last_step(), 1e-12 * std::abs(high));
+  const PurseString& string = state.purse_string;
+  const double high = integrator.time(), low = state.time;
+  const StateView at_end(layout, integrator.state());
+  DueEvents due{high, due_events(string, at_end, thresholds_), false};
+  if (due.tethers.empty()) return std::nullopt;
+  if (parameters_.event_handling == EventHandling::each_step) return due;
   watched_.clear();
   add_tethers(state, watched_);
-  while (high - low > resolution) {
-    const double middle = 0.5 * (low + high);
-    integrator.interpolate_some(middle, watched_, values_);
-    std::vector<RingEvent> at_middle = due_events(state.purse_string, StateView(layout, values_), thresholds_);
-    if (at_middle.empty()) {
-      low = middle;
-    } else {
-      high = middle;
-      due = std::move(at_middle);
-    }
-  }
-  return DueEvents{high, std::move(due), false};
+  const std::vector<RingEvent> at_high = due.tethers;
+  const auto excess = [&](const StateView& view) {  // with the sign that due_events decides on
+    double largest = -1.0;
+    for (const RingEvent& event : at_high) largest = std::max(largest, event_function(event, string, view, thresholds_));
+    return due_events(string, view, thresholds_).empty() ? std::min(largest, -1e-300) : std::max(largest, 0.0);
+  };
+  const double first = excess(state.view());
+  const auto excess_at = [&](double t) { return excess(watched_at(t, integrator, state)); };
+  due.time = first < 0.0 ? first_not_negative(low, first, high, excess(at_end), time_resolution(integrator), excess_at) : low;
+  if (due.time < high) due.tethers = due_events(string, watched_at(due.time, integrator, state), thresholds_);
+  return due;
+}
+
+std::optional<DueEvents> ClosureEvents::locate_captures(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
+  if (!locates_captures(false) || !exposure_.settled()) return std::nullopt;
+  watch_grid(state, false, edge);
+  const auto state_at = [&](double t) { return watched_at(t, integrator, state); };
+  const std::optional<double> due = exposure_.first_due(state.time, integrator.time(), time_resolution(integrator), state.tissue, state_at, edge);
+  return due ? std::optional(DueEvents{*due, {}, true}) : std::nullopt;
+}
+
+std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
+  std::optional<DueEvents> tethers = locate_tethers(integrator, state), captures = locate_captures(integrator, state, edge);
+  if (!captures || (tethers && tethers->time < captures->time)) return tethers;
+  return captures;
 }
 
 /// What a grid time reads of the state: the ends of the tethers, the positions of the cells around the wound.
@@ -117,13 +144,17 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
   const long last = static_cast<long>(std::floor((integrator.time() - start_) / interval_ + 1e-9));
   if (last <= last_grid_) return std::nullopt;
   const bool tethers = gauge_.on_grid(integrator.time());
+  if (locates_captures(tethers) && exposure_.settled()) {
+    last_grid_ = last;
+    return std::nullopt;
+  }
   watch_grid(state, tethers, edge);
   const auto due_at = [&](long k) -> std::optional<DueEvents> {
     integrator.interpolate_some(std::min(grid_time(k), integrator.time()), watched_, values_);
     const StateView view(state.layout(), values_);
     DueEvents due{grid_time(k), {}, false};
     if (tethers) due.tethers = due_events(state.purse_string, view, thresholds_);
-    due.captures = parameters_.capture && !(looks_at_exposure() && edge.exposed(state.tissue, view) == seen_exposed_);
+    due.captures = parameters_.capture && !(looks_at_exposure() && exposure_.is_as_seen(edge.exposed(state.tissue, view)));
     if (due.tethers.empty() && !due.captures) return std::nullopt;
     return due;
   };
@@ -154,7 +185,7 @@ void ClosureEvents::make_room(std::size_t components) {
 }
 
 double ClosureEvents::next_known(double t) {
-  if (!gauge_.on_grid(t)) return 1e300;
+  if (!gauge_.on_grid(t)) return exposure_.next_release().value_or(1e300);
   return grid_time(static_cast<long>(std::floor((t - start_) / interval_ + 1e-9)) + 1);
 }
 
@@ -162,9 +193,10 @@ std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const
   if (state.purse_string.empty()) return std::nullopt;
   if (parameters_.capture_search == CaptureSearch::published) return after_step(integrator, state);
   if (values_.size() != state.values.size()) make_room(state.values.size());
+  if (gauge_.on_grid(integrator.time()) && exposure_.next_release()) exposure_.unsettle();  // a storm has begun: the grid captures them
   std::optional<DueEvents> due = on_grid(integrator, state, edge);
   if (gauge_.on_grid(integrator.time())) return due;
-  std::optional<DueEvents> located = locate(integrator, state);
+  std::optional<DueEvents> located = locate(integrator, state, edge);
   if (!located || (due && due->time <= located->time)) return due;
   // The step is cut here, so the grid times behind it are looked at again.
   last_grid_ = std::min(last_grid_, static_cast<long>(std::floor((located->time - start_) / interval_ + 1e-9)));
@@ -193,8 +225,13 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbo
     tethers[k].index = static_cast<int>(std::find(ring.begin(), ring.end(), vertex[k]) - ring.begin());
   state = apply_events(std::move(state), tethers, parameters_.gap_law, log);
   gauge_.count(due.time, static_cast<int>(tethers.size()));
-  const auto is_yield = [](const RingEvent& e) { return e.kind == EventKind::yield; };
-  if (std::any_of(tethers.begin(), tethers.end(), is_yield)) seen_exposed_.clear();
+  for (std::size_t k = 0; k < tethers.size(); ++k) {
+    if (tethers[k].kind != EventKind::yield) continue;
+    if (locates_captures(gauge_.on_grid(due.time)))
+      exposure_.release(vertex[k], due.time + interval_);
+    else
+      exposure_.unsettle();
+  }
   return changed;
 }
 
@@ -202,9 +239,10 @@ bool ClosureEvents::capture(TissueState& state, WoundNeighbourhood& edge, std::v
   const CaptureRule rule{parameters_.capture_law, parameters_.law};
   if (parameters_.capture_search == CaptureSearch::published) return search_.capture(state, rule, log);
   const std::optional<Wound>& wound = edge.update(state.tissue, state.view());
-  seen_exposed_ = edge.exposed_at_update();
+  exposure_.settle(edge.exposed_at_update(), state.time);
   if (!wound) return false;
-  const std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
+  std::vector<int> boundary = string_boundary(state.tissue, wound->boundary, parameters_.crevice_depth);
+  std::erase_if(boundary, [&](int v) { return exposure_.is_held_back(v, state.time); });
   const std::vector<Capture> captured = captures(state, boundary);
   if (captured.empty()) return false;
   state = capture_vertices(std::move(state), captured, rule);

@@ -18,6 +18,7 @@ namespace {
 
 void mend_checkpoint(std::string& bytes) {
   if (bytes.size() < 40) return;
+  std::memcpy(bytes.data() + 8, &checkpoint_version, 8);
   const std::uint64_t length = bytes.size() - 32;
   std::memcpy(bytes.data() + 16, &length, 8);
   const std::uint64_t hash = content_hash(std::string_view(bytes).substr(0, bytes.size() - 8));

@@ -10,6 +10,8 @@
 
 namespace suture {
 
+struct MembraneSegment;
+
 /// Only a box around a former outline of the wound is looked at, and for what covers membranes there the cells that come
 /// into it. When the wound is not found there, its outline has come within half of that distance of the edge of the box, or another
 /// boundary that leaves the box has come to the former wound, the whole tissue is: a wound may move any distance between two updates.
@@ -25,6 +27,9 @@ class WoundNeighbourhood {
   /// not read.
   /// Valid until the next call.
   const std::vector<char>& exposed(const Tissue& tissue, const StateView& state);
+  /// Whether it is certain, without a new look, that exposed() would show nobody who was not exposed at the last look: what was found to
+  /// cover the others then, or what is beside it, covers them still. Reads the same positions.
+  bool surely_uncovers_nobody(const Tissue& tissue, const StateView& state);
   /// What exposed() would have given for the state of the last update(), which has found it on its way.
   const std::vector<char>& exposed_at_update() const { return exposed_; }
   const std::optional<Wound>& wound() const { return wound_; }
@@ -51,6 +56,9 @@ class WoundNeighbourhood {
   const Exposure& expose(const Tissue& watched, const StateView& positions);
   /// From one flag per vertex of the part to one per vertex of the tissue, in exposed_.
   const std::vector<char>& scatter(const Tissue& tissue, const std::vector<char>& found);
+
+  MembraneSegment segment(const Tissue& watched, int v) const;
+  bool surely_covered(const Tissue& watched, int v, int blocker) const;
 
   double margin_;
   WoundTracker tracker_;

@@ -140,6 +140,7 @@ struct PurseStringParameters {
   int crevice_depth = 1;               ///< vertices the string follows each cell into a crevice, beyond the exposed ones
   EventHandling event_handling = EventHandling::automatic;
   double event_interval = 0.05;
+  double storm_rate = 60.0;            ///< tether events per unit of time beyond which EventHandling::automatic turns to the grid
   bool operator==(const PurseStringParameters&) const = default;
 };
 

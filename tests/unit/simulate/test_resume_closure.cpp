@@ -80,8 +80,10 @@ TEST_CASE("a closure resumed from a configured checkpoint repeats every bit, bef
   };
   int captures = 0;
   for (const auto& [method, handling] : {Case{Method::cvode, EventHandling::automatic}, Case{Method::cvode, EventHandling::grid},
+                                         Case{Method::cvode, EventHandling::located}, Case{Method::rkc2, EventHandling::located},
                                          Case{Method::rkc2, EventHandling::automatic}}) {
     Config config = closing_config(method);
+    config.purse_string.storm_rate = 10.0;
     config.purse_string.event_handling = handling;
     config.purse_string.event_interval = 0.07;  // not a divisor of the checkpoint interval: the grid must be the old one
     Witness whole;
