@@ -128,29 +128,40 @@ bool WoundNeighbourhood::surely_uncovers_nobody(const Tissue& tissue, const Stat
   const Exposure& last = tracker_.boundary().exposure();
   if (last.exposed.size() != vertex_.size()) return false;
   const Tissue& watched = part(tissue);
-  for (int cell = 0; cell < watched.cell_count(); ++cell)
+  for (int cell = 0; cell < watched.cell_count(); ++cell) {
+    MembraneSegment before = segment(watched, watched.end_vertex(cell) - 1);
     for (int v = watched.first_vertex(cell); v < watched.end_vertex(cell); ++v) {
-      if (last.exposed[v]) continue;
-      const bool was_out = last.margin[v] == 0.0 && last.blocker[v] < 0;
-      const bool is_out = x_[v] < region_.x_low || x_[v] > region_.x_high || y_[v] < region_.y_low || y_[v] > region_.y_high;
-      if (!(was_out && is_out) && !surely_covered(watched, v, last.blocker[v])) return false;
+      const MembraneSegment after = segment(watched, v);
+      if (!last.exposed[v]) {
+        const bool was_out = last.margin[v] == 0.0 && last.blocker[v] < 0;
+        const bool is_out = x_[v] < region_.x_low || x_[v] > region_.x_high || y_[v] < region_.y_low || y_[v] > region_.y_high;
+        if (!(was_out && is_out) && !surely_covered(watched, before, after, last.blocker[v])) return false;
+      }
+      before = after;
     }
+  }
   return true;
 }
 
 MembraneSegment WoundNeighbourhood::segment(const Tissue& watched, int v) const {
   const int w = watched.next(v);
-  const double ex = x_[w] - x_[v], ey = y_[w] - y_[v], length = std::hypot(ex, ey);
+  const double ex = x_[w] - x_[v], ey = y_[w] - y_[v], length = std::sqrt(ex * ex + ey * ey);
   return {x_[v], y_[v], ex / length, ey / length, length, watched.cell_of(v)};
 }
 
-/// By `blocker`, a segment of another cell, or one of its neighbours.
-bool WoundNeighbourhood::surely_covered(const Tissue& watched, int v, int blocker) const {
-  if (blocker < 0 || watched.cell_of(blocker) == watched.cell_of(v)) return false;
+/// Where these segments meet, by `blocker`, a segment of another cell, or one of its neighbours.
+bool WoundNeighbourhood::surely_covered(const Tissue& watched, const MembraneSegment& before, const MembraneSegment& after, int blocker) const {
+  if (blocker < 0 || watched.cell_of(blocker) == after.cell) return false;
   constexpr double rounding = 1e-6;
   const double radius = tracker_.boundary().membrane().probe_radius(), limit = radius * radius * (1.0 - rounding);
-  const Point centre = probe_centre(segment(watched, watched.previous(v)), segment(watched, v), radius);
-  const auto covers = [&](int s) { return segment(watched, s).squared_distance(centre.x, centre.y) < limit; };
+  const Point centre = probe_centre(before, after, radius);
+  const auto covers = [&](int a) {
+    const int b = watched.next(a);
+    const double ex = x_[b] - x_[a], ey = y_[b] - y_[a], wx = centre.x - x_[a], wy = centre.y - y_[a];
+    const double t = std::min(std::max((wx * ex + wy * ey) / (ex * ex + ey * ey), 0.0), 1.0);
+    const double dx = wx - t * ex, dy = wy - t * ey;
+    return dx * dx + dy * dy < limit;
+  };
   return covers(blocker) || covers(watched.previous(blocker)) || covers(watched.next(blocker));
 }
 

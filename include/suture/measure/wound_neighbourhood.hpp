@@ -58,7 +58,7 @@ class WoundNeighbourhood {
   const std::vector<char>& scatter(const Tissue& tissue, const std::vector<char>& found);
 
   MembraneSegment segment(const Tissue& watched, int v) const;
-  bool surely_covered(const Tissue& watched, int v, int blocker) const;
+  bool surely_covered(const Tissue& watched, const MembraneSegment& before, const MembraneSegment& after, int blocker) const;
 
   double margin_;
   WoundTracker tracker_;
