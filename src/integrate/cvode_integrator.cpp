@@ -60,7 +60,7 @@ class CvodeIntegrator final : public Integrator {
   MinimisingNewton newton_;
   SUNContext context_ = nullptr;
   std::shared_ptr<VectorFamily> family_;
-  N_Vector y_ = nullptr, interpolated_ = nullptr;
+  N_Vector y_ = nullptr, interpolated_ = nullptr;  // during a step the state before it
   SUNNonlinearSolver solver_ = nullptr;
   void* cvode_ = nullptr;
   double time_ = 0.0, last_step_ = 0.0;
@@ -173,7 +173,7 @@ int CvodeIntegrator::solve_step(N_Vector correction, double tolerance) {
     unconverged_ = worst_components(*system_, newton_.obstacle(), options_);
     return SUN_NLS_CONV_RECVR;
   }
-  if (system_->jumps(values(y_), out)) {
+  if (system_->jumps(values(interpolated_), out)) {
     ++jumps_;
     return SUN_NLS_CONV_RECVR;
   }
@@ -208,6 +208,7 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
 double CvodeIntegrator::step(double limit) {
   if (!(limit > time_)) return time_;
   const double before = time_;
+  N_VScale(1.0, y_, interpolated_);  // CVODE works in y_
   const bool first = first_step_ > 0.0;
   if (first) limit = std::min(limit, before + std::exchange(first_step_, 0.0));
   check(CVodeSetMinStep(cvode_, time_resolution * std::abs(before)), "CVodeSetMinStep");

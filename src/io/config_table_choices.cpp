@@ -45,7 +45,7 @@ constexpr std::array event_handlings{
     choice("automatic", EventHandling::automatic),
     choice("located", EventHandling::located, "each breaking, change of mode and capture is located in time"),
     choice("grid", EventHandling::grid, "events are processed at multiples of event_interval"),
-    choice("each_step", EventHandling::each_step, "after every integrator step, as the published simulations did"),
+    choice("each_step", EventHandling::each_step, "after every integrator step, as the published simulations did; captures of capture_search \"boundary\" on the event grid"),
 };
 constexpr std::array adjacencies{
     choice("outline", Adjacency::outline, "cells with a vertex within sqrt(a0/pi) of the wound's outline (printed)"),

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
 
 #include "measure/exposure_core.hpp"
 #include "suture/errors.hpp"
@@ -45,8 +44,7 @@ class DiscTest {
            ExposureRule rule, Exposure& out)
       : tissue_(tissue), state_(state), grid_(grid), rule_(rule), out_(out) {
     radius_ = rule == ExposureRule::probe_disc ? membrane.probe_radius() : membrane.interaction_distance();
-    // Half the circumference of the probe: own membrane nearer than that along the cell belongs to the same bend.
-    own_window_ = std::numbers::pi * membrane.probe_radius();
+    own_window_ = own_bend(membrane.probe_radius());
     constexpr double rounding = 1e-9;
     squared_limit_ = radius_ * radius_ * (1.0 - rounding);
   }

@@ -1,10 +1,15 @@
 // The parts of the exposure test that work on a grid somebody else has built.
 #pragma once
 
+#include <numbers>
+
 #include "measure/segment_grid.hpp"
 #include "suture/measure/exposure.hpp"
 
 namespace suture {
+
+/// Half the circumference of the probe: own membrane nearer than that along the cell belongs to the same bend and blocks nobody.
+inline double own_bend(double probe_radius) { return std::numbers::pi * probe_radius; }
 
 /// Buckets a little larger than a segment: most segments are filed once, few strangers are visited.
 inline double grid_bucket_size(const Membrane& membrane) { return 1.2 * membrane.contact_distance; }

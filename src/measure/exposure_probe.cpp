@@ -8,14 +8,18 @@ namespace suture {
 
 namespace {
 
-/// The cells that come within two probe diameters of one of the vertices.
+/// The cells whose boxes come within two probe diameters of one of the vertices.
 std::vector<int> cells_around(const Tissue& tissue, const StateView& state, double diameter, std::span<const int> vertices, std::span<const int> cells) {
   const double reach = 2.0 * diameter;
   std::vector<int> near;
   const auto look_at = [&](int cell) {
-    for (int v = tissue.first_vertex(cell); v < tissue.end_vertex(cell); ++v)
-      for (const int w : vertices)
-        if (std::abs(state.x[v] - state.x[w]) < reach && std::abs(state.y[v] - state.y[w]) < reach) return near.push_back(cell);
+    const int first = tissue.first_vertex(cell), count = tissue.vertex_count(cell);
+    const auto [left, right] = std::ranges::minmax(state.x.subspan(first, count));
+    const auto [bottom, top] = std::ranges::minmax(state.y.subspan(first, count));
+    if (std::ranges::any_of(vertices, [&](int v) {
+          return state.x[v] > left - reach && state.x[v] < right + reach && state.y[v] > bottom - reach && state.y[v] < top + reach;
+        }))
+      near.push_back(cell);
   };
   for (const int cell : cells) look_at(cell);
   if (cells.empty())

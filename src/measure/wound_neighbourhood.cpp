@@ -122,6 +122,12 @@ const std::vector<char>& WoundNeighbourhood::exposed(const Tissue& tissue, const
   return exposed_;
 }
 
+void WoundNeighbourhood::look_around_wound(const Tissue& tissue, const StateView& state) {
+  if (!cells_.empty() || !wound_) return;
+  choose_region(*wound_);
+  choose_cells(tissue, state);
+}
+
 bool WoundNeighbourhood::surely_uncovers_nobody(const Tissue& tissue, const StateView& state) {
   if (cells_.empty() || !part_) return false;
   gather(state);
@@ -135,7 +141,7 @@ bool WoundNeighbourhood::surely_uncovers_nobody(const Tissue& tissue, const Stat
       if (!last.exposed[v]) {
         const bool was_out = last.margin[v] == 0.0 && last.blocker[v] < 0;
         const bool is_out = x_[v] < region_.x_low || x_[v] > region_.x_high || y_[v] < region_.y_low || y_[v] > region_.y_high;
-        if (!(was_out && is_out) && !surely_covered(watched, before, after, last.blocker[v])) return false;
+        if (!(was_out && is_out) && !surely_covered(watched, v, before, after, last.blocker[v])) return false;
       }
       before = after;
     }
@@ -149,18 +155,27 @@ MembraneSegment WoundNeighbourhood::segment(const Tissue& watched, int v) const 
   return {x_[v], y_[v], ex / length, ey / length, length, watched.cell_of(v)};
 }
 
-/// Where these segments meet, by `blocker`, a segment of another cell, or one of its neighbours.
-bool WoundNeighbourhood::surely_covered(const Tissue& watched, const MembraneSegment& before, const MembraneSegment& after, int blocker) const {
-  if (blocker < 0 || watched.cell_of(blocker) == after.cell) return false;
+/// Whether segment s of the vertex's own cell is farther than this from it along the membrane, both ways round.
+bool WoundNeighbourhood::far_along_membrane(const Tissue& watched, int v, int s, double distance) const {
+  double ahead = 0.0, behind = 0.0;
+  for (int w = v; w != s; w = watched.next(w)) ahead += segment(watched, w).length;
+  for (int w = watched.next(s); w != v; w = watched.next(w)) behind += segment(watched, w).length;
+  return ahead > distance && behind > distance;
+}
+
+/// By `blocker`, which blocked the vertex between these segments, or a segment beside it.
+bool WoundNeighbourhood::surely_covered(const Tissue& watched, int v, const MembraneSegment& before, const MembraneSegment& after, int blocker) const {
+  if (blocker < 0) return false;
   constexpr double rounding = 1e-6;
   const double radius = tracker_.boundary().membrane().probe_radius(), limit = radius * radius * (1.0 - rounding);
   const Point centre = probe_centre(before, after, radius);
+  const bool own = watched.cell_of(blocker) == after.cell;
   const auto covers = [&](int a) {
     const int b = watched.next(a);
     const double ex = x_[b] - x_[a], ey = y_[b] - y_[a], wx = centre.x - x_[a], wy = centre.y - y_[a];
     const double t = std::min(std::max((wx * ex + wy * ey) / (ex * ex + ey * ey), 0.0), 1.0);
     const double dx = wx - t * ex, dy = wy - t * ey;
-    return dx * dx + dy * dy < limit;
+    return dx * dx + dy * dy < limit && !(own && !far_along_membrane(watched, v, a, own_bend(radius) * (1.0 + rounding)));
   };
   return covers(blocker) || covers(watched.previous(blocker)) || covers(watched.next(blocker));
 }

@@ -13,7 +13,6 @@ struct Positions {
   Point operator[](int v) const { return {q[v], q[q.size() / 2 + v]}; }
 };
 
-
 /// Even-odd rule.
 bool inside(const Tissue& tissue, int cell, const Positions& at, int vertex) {
   const Point p = at[vertex];

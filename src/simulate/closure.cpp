@@ -220,8 +220,8 @@ void Closure::step() {
   double until = integrator_->time();
   while (const std::optional<DueEvents> due = events_.find(*integrator_, state_, event_wound_)) {
     TissueState at_event = state_at(due->time);
-    if (!events_.apply(*due, at_event, event_wound_, log_)) continue;
     guard_progress(due->time);
+    if (!events_.apply(*due, at_event, event_wound_, log_)) continue;
     take_samples(due->time);
     publish_events();
     resume(std::move(at_event));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "simulate/bracket.hpp"
@@ -9,6 +10,8 @@
 namespace suture {
 
 namespace {
+
+constexpr double longest_without_look = 20.0;  // event intervals
 
 void add_point(const StateLayout& layout, int point, std::vector<int>& components) {
   components.push_back(layout.x(point));
@@ -76,7 +79,7 @@ ClosureEvents::ClosureEvents(const Config& config, const Membrane& membrane, dou
       interval_(config.purse_string.event_interval),
       gauge_(config.purse_string.event_handling, config.purse_string.storm_rate),
       search_(membrane, config.purse_string.search_steps, config.purse_string.capture_steps),
-      exposure_(membrane) {}
+      exposure_(membrane, longest_without_look * interval_) {}
 
 /// The state in the components watched_, at a time inside the step that began at `start`.
 StateView ClosureEvents::watched_at(double t, const Integrator& integrator, const TissueState& start) {
@@ -102,7 +105,7 @@ std::optional<DueEvents> ClosureEvents::locate_tethers(const Integrator& integra
   const auto excess = [&](const StateView& view) {  // with the sign that due_events decides on
     double largest = -1.0;
     for (const RingEvent& event : at_high) largest = std::max(largest, event_function(event, string, view, thresholds_));
-    return due_events(string, view, thresholds_).empty() ? std::min(largest, -1e-300) : std::max(largest, 0.0);
+    return due_events(string, view, thresholds_).empty() ? std::min(largest, -std::numeric_limits<double>::min()) : std::max(largest, 0.0);
   };
   const double first = excess(state.view());
   const auto excess_at = [&](double t) { return excess(watched_at(t, integrator, state)); };
@@ -154,7 +157,7 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
     const StateView view(state.layout(), values_);
     DueEvents due{grid_time(k), {}, false};
     if (tethers) due.tethers = due_events(state.purse_string, view, thresholds_);
-    due.captures = parameters_.capture && !(looks_at_exposure() && exposure_.is_as_seen(edge.exposed(state.tissue, view)));
+    due.captures = parameters_.capture && (exposure_.next_release() <= grid_time(k) || !(looks_at_exposure() && exposure_.is_as_seen(edge.exposed(state.tissue, view))));
     if (due.tethers.empty() && !due.captures) return std::nullopt;
     return due;
   };
@@ -185,7 +188,7 @@ void ClosureEvents::make_room(std::size_t components) {
 }
 
 double ClosureEvents::next_known(double t) {
-  if (!gauge_.on_grid(t)) return exposure_.next_release().value_or(1e300);
+  if (!gauge_.on_grid(t)) return exposure_.next_release() > t ? exposure_.next_release() : 1e300;
   return grid_time(static_cast<long>(std::floor((t - start_) / interval_ + 1e-9)) + 1);
 }
 
@@ -193,7 +196,6 @@ std::optional<DueEvents> ClosureEvents::find(const Integrator& integrator, const
   if (state.purse_string.empty()) return std::nullopt;
   if (parameters_.capture_search == CaptureSearch::published) return after_step(integrator, state);
   if (values_.size() != state.values.size()) make_room(state.values.size());
-  if (gauge_.on_grid(integrator.time()) && exposure_.next_release()) exposure_.unsettle();  // a storm has begun: the grid captures them
   std::optional<DueEvents> due = on_grid(integrator, state, edge);
   if (gauge_.on_grid(integrator.time())) return due;
   std::optional<DueEvents> located = locate(integrator, state, edge);
@@ -213,10 +215,11 @@ std::optional<DueEvents> ClosureEvents::after_step(const Integrator& integrator,
   return due;
 }
 
-/// Captures come first: a tether that breaks now is recaptured at the next grid time at the earliest.
+/// Captures come first: a tether that breaks now is not made anew at the same instant.
 bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log) {
   std::vector<int> vertex;  // the events' cell vertices: ring indices move when vertices are captured
   for (const RingEvent& e : due.tethers) vertex.push_back(state.purse_string.vertex[e.index]);
+  const bool located = locates_captures(gauge_.on_grid(due.time));  // before these events are counted
   bool changed = !due.tethers.empty();
   if (due.captures) changed |= capture(state, edge, log);
   std::vector<RingEvent> tethers = due.tethers;
@@ -227,11 +230,12 @@ bool ClosureEvents::apply(const DueEvents& due, TissueState& state, WoundNeighbo
   gauge_.count(due.time, static_cast<int>(tethers.size()));
   for (std::size_t k = 0; k < tethers.size(); ++k) {
     if (tethers[k].kind != EventKind::yield) continue;
-    if (locates_captures(gauge_.on_grid(due.time)))
+    if (located)
       exposure_.release(vertex[k], due.time + interval_);
     else
       exposure_.unsettle();
   }
+  if (state.purse_string.empty()) exposure_.forget();
   return changed;
 }
 

@@ -1,6 +1,8 @@
 #include "simulate/exposure_watch.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 
 #include "measure/exposure_probe.hpp"
 #include "simulate/bracket.hpp"
@@ -18,13 +20,15 @@ bool ExposureWatch::is_held_back(int vertex, double t) const {
   return std::ranges::any_of(released_, [&](const ReleasedVertex& r) { return r.vertex == vertex && r.until > t; });
 }
 
-std::optional<double> ExposureWatch::next_release() const {
-  const auto earliest = std::ranges::min_element(released_, {}, &ReleasedVertex::until);
-  return earliest == released_.end() ? std::nullopt : std::optional(earliest->until);
+double ExposureWatch::next_release() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const ReleasedVertex& r : released_) next = std::min(next, r.until);
+  return next;
 }
 
 bool ExposureWatch::find_newly_exposed(const Tissue& tissue, const StateView& state, WoundNeighbourhood& edge) {
   newly_exposed_.clear();
+  edge.look_around_wound(tissue, state);
   if (last_look_found_nobody_ && edge.surely_uncovers_nobody(tissue, state)) return false;
   const std::vector<char>& exposed = edge.exposed(tissue, state);
   for (int v = 0; v < tissue.vertex_count(); ++v)
@@ -33,18 +37,29 @@ bool ExposureWatch::find_newly_exposed(const Tissue& tissue, const StateView& st
   return !last_look_found_nobody_;
 }
 
+/// One that was exposed at `low` already has only come into the region that is looked at.
+double ExposureWatch::first_exposed(double low, double high, double resolution, const Tissue& tissue, const StateAt& state_at,
+                                    const WoundNeighbourhood& edge) {
+  const auto probe = [&](std::span<const int> vertices) { return ExposureProbe(tissue, state_at(high), membrane_, vertices, edge.cells()); };
+  ExposureProbe margin = probe(newly_exposed_);
+  double first = margin(state_at(low));
+  if (!(first < 0.0)) {
+    std::erase_if(newly_exposed_, [&](int v) { return probe({&v, 1})(state_at(low)) >= 0.0; });
+    if (newly_exposed_.empty()) return high;
+    margin = probe(newly_exposed_);
+    first = margin(state_at(low));
+  }
+  return first_not_negative(low, first, high, margin(state_at(high)), resolution, [&](double t) { return margin(state_at(t)); });
+}
+
 std::optional<double> ExposureWatch::first_due(double low, double high, double resolution, const Tissue& tissue, const StateAt& state_at,
                                                WoundNeighbourhood& edge) {
   low = std::max(low, settled_at_);
-  const std::optional<double> release = next_release();
-  const bool released = release && *release <= high;
-  if (released) high = std::max(low, *release);
-  const StateView at_end = state_at(high);
-  if (!find_newly_exposed(tissue, at_end, edge)) return released ? std::optional(high) : std::nullopt;
-  ExposureProbe margin(tissue, at_end, membrane_, newly_exposed_, edge.cells());
-  const double last = margin(at_end), first = margin(state_at(low));
-  if (!(first < 0.0 && last >= 0.0)) return high;
-  return first_not_negative(low, first, high, last, resolution, [&](double t) { return margin(state_at(t)); });
+  const double known = std::min(next_release(), settled_at_ + patience_);
+  const bool due = known <= high;
+  if (due) high = std::max(low, known);
+  if (find_newly_exposed(tissue, state_at(high), edge)) return first_exposed(low, high, resolution, tissue, state_at, edge);
+  return due ? std::optional(high) : std::nullopt;
 }
 
 }  // namespace suture

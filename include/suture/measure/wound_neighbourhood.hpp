@@ -27,6 +27,8 @@ class WoundNeighbourhood {
   /// not read.
   /// Valid until the next call.
   const std::vector<char>& exposed(const Tissue& tissue, const StateView& state);
+  /// If the last update() had to look at the whole tissue: from now on only around the wound that it found.
+  void look_around_wound(const Tissue& tissue, const StateView& state);
   /// Whether it is certain, without a new look, that exposed() would show nobody who was not exposed at the last look: what was found to
   /// cover the others then, or what is beside it, covers them still. Reads the same positions.
   bool surely_uncovers_nobody(const Tissue& tissue, const StateView& state);
@@ -58,7 +60,8 @@ class WoundNeighbourhood {
   const std::vector<char>& scatter(const Tissue& tissue, const std::vector<char>& found);
 
   MembraneSegment segment(const Tissue& watched, int v) const;
-  bool surely_covered(const Tissue& watched, const MembraneSegment& before, const MembraneSegment& after, int blocker) const;
+  bool far_along_membrane(const Tissue& watched, int v, int s, double distance) const;
+  bool surely_covered(const Tissue& watched, int v, const MembraneSegment& before, const MembraneSegment& after, int blocker) const;
 
   double margin_;
   WoundTracker tracker_;

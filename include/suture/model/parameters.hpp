@@ -46,10 +46,10 @@ enum class GapLaw {
 
 /// When discrete events of the purse string are processed.
 enum class EventHandling {
-  automatic,  ///< located while rare, on the event grid once they storm
+  automatic,  ///< located, on the event grid while they storm (storm_rate)
   located,    ///< by root finding
   grid,       ///< at multiples of event_interval
-  each_step,  ///< after every step of the integrator (published simulations)
+  each_step,  ///< after every step of the integrator (published simulations); captures of CaptureSearch::boundary on the grid
 };
 
 /// Which cells count as adjacent to the wound when shapes are averaged.
@@ -139,7 +139,7 @@ struct PurseStringParameters {
   GapLaw gap_law = GapLaw::span;
   int crevice_depth = 1;               ///< vertices the string follows each cell into a crevice, beyond the exposed ones
   EventHandling event_handling = EventHandling::automatic;
-  double event_interval = 0.05;
+  double event_interval = 0.05;        ///< of the event grid; located: from a yield to when the vertex may be captured again
   double storm_rate = 60.0;            ///< tether events per unit of time beyond which EventHandling::automatic turns to the grid
   bool operator==(const PurseStringParameters&) const = default;
 };

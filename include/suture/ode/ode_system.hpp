@@ -22,7 +22,7 @@ class OdeSystem {
   /// dy/dt, a pure function of (t, y).
   virtual Evaluation rate(double t, std::span<const double> y, std::span<double> out) = 0;
   /// Whether a step from `before` to `after`, where the last evaluation was or nearly was, has jumped over something that a shorter
-  /// one would meet: then it is repeated with a shorter one. A small step never does.
+  /// one would meet: then cvode and rkc2 repeat it with a shorter one. A small step never does.
   virtual bool jumps(std::span<const double> /*before*/, std::span<const double> /*after*/) { return false; }
   /// "cell 12, vertex 3, x".
   virtual std::string component_name(int i) const = 0;

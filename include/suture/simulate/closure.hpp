@@ -1,9 +1,8 @@
 // The closure stage: a wounded tissue with a purse string, integrated as a hybrid system until the wound is closed.
 //
-// Between events the ring and the modes of its tethers are fixed and the rate is smooth. Tether events are located by
-// root finding on the integrator's own interpolant while they are rare, and processed on the event grid once they storm;
-// captures are processed on the grid always, after a vertex has been seen exposed and before this instant's yields, so
-// that a tether that breaks is recaptured at the next grid time at the earliest and no instant can repeat for ever.
+// Between events the ring and the modes of its tethers are fixed and the rate is smooth. Events are located by root finding
+// on the integrator's own interpolant, or processed on the event grid while they storm. A tether that breaks is made anew
+// purse_string.event_interval later at the earliest (on the grid: at the next grid time), so no instant can repeat for ever.
 #pragma once
 
 #include <optional>

@@ -23,6 +23,31 @@ class WalledToy final : public ToyFlow {
   int found = 0;
 };
 
+/// Its rest length moves ever faster, so that steps fail their error test although the positions are found.
+class RememberingToy final : public ToyFlow {
+ public:
+  RememberingToy() : ToyFlow(4) {}
+  Evaluation rate(double t, std::span<const double> y, std::span<double> out) override {
+    const Evaluation evaluation = ToyFlow::rate(t, y, out);
+    out[4] = acceleration * t;
+    return evaluation;
+  }
+  void begin_implicit_step(double t, double gamma, std::span<const double> psi) override {
+    ToyFlow::begin_implicit_step(t, gamma, psi);
+    moved_ = psi[4] + gamma * acceleration * t;
+  }
+  void recover_memory(std::span<const double>, std::span<double> memory) override { memory[0] = moved_; }
+  bool jumps(std::span<const double> before, std::span<const double>) override {
+    compared_with.push_back(before[0]);
+    return false;
+  }
+  std::vector<double> compared_with;
+
+ private:
+  static constexpr double acceleration = 50.0;
+  double moved_ = 0.0;
+};
+
 }  // namespace
 
 TEST_CASE("a step over a wall is repeated until it is short enough", "[unit]") {
@@ -51,4 +76,21 @@ TEST_CASE("a step over a wall is repeated until it is short enough", "[unit]") {
     CHECK(integrator->statistics().convergence_failures >= toy.found);
     CHECK(before == Approx(std::exp(-2.0)).margin(0.03));
   }
+}
+
+TEST_CASE("a step is compared with where it began, not with where an attempt that failed had ended", "[unit]") {
+  RememberingToy toy;
+  IntegratorOptions options = with_tolerance(Method::cvode, 0.1);
+  options.largest_move = 10.0;
+  options.initial_step = 0.3;
+  const std::vector<double> start(5, 1.0);
+  const auto integrator = make_integrator(toy, options, 0.0, start);
+  while (integrator->time() < 1.0) {
+    const double before = integrator->state()[0];
+    toy.compared_with.clear();
+    integrator->step(1.0);
+    for (const double from : toy.compared_with) CHECK(from == before);
+    CHECK(!toy.compared_with.empty());
+  }
+  CHECK(integrator->statistics().error_test_failures > 0);
 }
