@@ -195,6 +195,7 @@ TEST_CASE("how often events are looked for does not decide how often tethers bre
   Config config = with_contact_distance(default_config());
   config.run.end_time = 40.0;
   config.integrator.method = Method::automatic;
+  config.purse_string.event_handling = EventHandling::grid;
   std::map<CaptureLaw, std::array<int, 2>> yields;
   for (int seed = 1; seed <= 2; ++seed) {
     config.tissue.seed = seed;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Error bars of Fig. 4: what tolerance and event grid do to the seed-averaged wound area and shape.
+"""Error bars of Fig. 4: what tolerance and event interval do to the seed-averaged wound area and shape.
 
     tolerance.py FOLDER PICTURE.png      a folder of `suture sweep tolerance.toml`
 
@@ -51,7 +51,7 @@ for column, tissue in enumerate(["embryo", "wing_disc"]):
     first, length = found[tissue, settings[0]], len(time[tissue])
     padded = lambda runs, seeds: np.array([np.pad(runs[s], (0, length - len(runs[s]))) for s in seeds])
     for k, setting in enumerate(settings):
-        runs, label = found[tissue, setting], f"tolerance {setting[0]:g}, event grid {setting[1]:g}"
+        runs, label = found[tissue, setting], f"tolerance {setting[0]:g}, event interval {setting[1]:g}"
         values = padded(runs, sorted(runs))
         upper, lower = axes[0][column], axes[1][column]
         mean, error = values.mean(axis=0), standard_error(values)
