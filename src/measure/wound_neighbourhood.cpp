@@ -38,13 +38,16 @@ void WoundNeighbourhood::choose_region(const Wound& former) {
   is_exposed_ = false;
 }
 
+/// Those that come into the box, and those beside it that a probe at a vertex in the box can meet.
 void WoundNeighbourhood::choose_cells(const Tissue& tissue, const StateView& state) {
+  const double reach = 2.0 * tracker_.boundary().membrane().probe_radius();
   chosen_.clear();
   for (int cell = 0; cell < tissue.cell_count(); ++cell) {
     const int first = tissue.first_vertex(cell), count = tissue.vertex_count(cell);
     const auto [left, right] = std::ranges::minmax(state.x.subspan(first, count));
     const auto [bottom, top] = std::ranges::minmax(state.y.subspan(first, count));
-    if (left <= region_.x_high && right >= region_.x_low && bottom <= region_.y_high && top >= region_.y_low) chosen_.push_back(cell);
+    if (left <= region_.x_high + reach && right >= region_.x_low - reach && bottom <= region_.y_high + reach && top >= region_.y_low - reach)
+      chosen_.push_back(cell);
   }
   if (chosen_ == cells_) return;
   cells_.swap(chosen_);

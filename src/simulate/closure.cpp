@@ -160,7 +160,10 @@ Statistics Closure::statistics() const {
 TissueState Closure::state_at(double t) const {
   TissueState state = state_;
   state.time = t;
-  integrator_->interpolate(t, state.values);
+  if (t >= integrator_->time())  // bit for bit what events were looked for in
+    std::copy(integrator_->state().begin(), integrator_->state().end(), state.values.begin());
+  else if (t > state_.time)
+    integrator_->interpolate(t, state.values);
   return state;
 }
 

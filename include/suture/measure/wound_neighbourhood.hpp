@@ -13,7 +13,7 @@ namespace suture {
 struct MembraneSegment;
 
 /// Only a box around a former outline of the wound is looked at, and for what covers membranes there the cells that come
-/// into it. When the wound is not found there, its outline has come within half of that distance of the edge of the box, or another
+/// into it or within a probe's diameter of it. When the wound is not found there, its outline has come within half of that distance of the edge of the box, or another
 /// boundary that leaves the box has come to the former wound, the whole tissue is: a wound may move any distance between two updates.
 /// Results are those of WoundTracker on the whole tissue, bit for bit unless that needs a larger probe (free_boundary.cpp).
 class WoundNeighbourhood {

@@ -1,5 +1,6 @@
 // What saves looks at the exposure of all vertices, against such looks.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "measure/exposure_probe.hpp"
@@ -80,4 +81,26 @@ TEST_CASE("a probe of some vertices says what a look at all of them says", "[uni
   }
   CHECK(exposed > 100);
   CHECK(covered > 100);
+}
+
+TEST_CASE("nobody counts as exposed because what covers him lies beside the box", "[unit]") {
+  int exposed = 0;
+  for (int k = 0; k < 40; ++k) {
+    TissueState state = tissue_of(honeycomb({.rings = 5, .removed = [](Point p) { return std::hypot(p.x, p.y) < 1.2; }}));
+    shake(state, 0.01, k + 1);
+    move(state, 0.026 * k, 0.0, 0.0);
+    WoundNeighbourhood edge(default_membrane());
+    edge.update(state.tissue, state.view());
+    edge.update(state.tissue, state.view());
+    REQUIRE_FALSE(edge.cells().empty());
+    const Exposure whole = exposed_vertices(state.tissue, state.view(), default_membrane());
+    int wrong = 0;
+    for (int v = 0; v < state.tissue.vertex_count(); ++v) {
+      wrong += edge.exposed_at_update()[v] && !whole.exposed[v];
+      exposed += edge.exposed_at_update()[v] != 0;
+    }
+    CAPTURE(k);
+    CHECK(wrong == 0);
+  }
+  CHECK(exposed > 1000);
 }
