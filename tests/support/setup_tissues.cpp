@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "suture/setup/protocol.hpp"
+
 namespace suture::test {
 
 Config small_config() {
@@ -21,6 +23,25 @@ Config small_config() {
 const Packing& packed_small_tissue() {
   static const Packing packing = make_packing(small_config());
   return packing;
+}
+
+Config small_closing_config(Method method) {
+  Config config = with_contact_distance(small_config());
+  config.run.closed_area = 1e-3;
+  config.plasticity.tau = 3.0;
+  config.integrator.method = method;
+  return config;
+}
+
+TissueState small_wound(const Config& config) {
+  static const TissueState wounded = [] {
+    Config preparation = small_config();
+    preparation.run.last_stage = Stage::ablation;
+    return prepare_tissue(preparation).state;
+  }();
+  TissueState state = wounded;
+  state.tissue = state.tissue.with_materials(std::vector<CellMaterial>(state.tissue.cell_count(), make_tissue(config).material(0)));
+  return state;
 }
 
 MakeOde elastic_forces(const Config& config, const Tissue& tissue) {

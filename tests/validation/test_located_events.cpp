@@ -5,45 +5,34 @@
 #include <cmath>
 #include <map>
 
+#include "support/event_log.hpp"
 #include "support/integration.hpp"
 #include "suture/io/config.hpp"
 #include "suture/setup/protocol.hpp"
-#include "suture/simulate/closure.hpp"
 
 using namespace suture;
 using namespace suture::test;
 
 namespace {
 
-class EventLog final : public ClosureObserver {
- public:
-  void sample(const ClosureSample&) override {}
-  void event(const EventRecord& e) override { records.push_back(e); }
-  std::vector<EventRecord> records;
-};
-
 struct Run {
   TissueState end;
-  std::vector<EventRecord> records;
+  EventLog log;
 };
 
 Run run(Config config, const TissueState& start, Method method, double tolerance) {
   config.integrator.method = method;
   config.integrator.tolerance = config.integrator.rest_length_tolerance = tolerance;
-  EventLog log;
+  Run result;
   TissueState last_good;
-  TissueState end = run_closure(config, start, log, last_good).state;
-  return {std::move(end), std::move(log.records)};
+  result.end = run_closure(config, start, result.log, last_good).state;
+  return result;
 }
 
 /// Of the cells' vertices, rms.
 double difference(const TissueState& a, const TissueState& b) {
   const std::size_t n = a.tissue.vertex_count();
   return std::hypot(rms_difference(a.view().x.first(n), b.view().x.first(n)), rms_difference(a.view().y.first(n), b.view().y.first(n))) / std::sqrt(2.0);
-}
-
-int count(const std::vector<EventRecord>& records, EventKind kind) {
-  return static_cast<int>(std::count_if(records.begin(), records.end(), [=](const EventRecord& e) { return e.kind == kind; }));
 }
 
 }  // namespace
@@ -61,14 +50,14 @@ TEST_CASE("accurate runs of two methods take the same way through the first hund
     const Run reference = run(config, start, Method::rkc2, 1e-6);
     for (const auto& [method, tolerance, bound] : {std::tuple{Method::cvode, 1e-5, 5e-3}, std::tuple{Method::rkc2, 1e-4, 2e-2}}) {
       const Run other = run(config, start, method, tolerance);
-      CAPTURE(seed, static_cast<int>(method), reference.records.size(), other.records.size());
+      CAPTURE(seed, static_cast<int>(method), reference.log.records.size(), other.log.records.size());
       const double error = difference(other.end, reference.end) / l0;
       CAPTURE(error);
       CHECK(error < bound);
       for (const EventKind kind : {EventKind::yield, EventKind::capture, EventKind::force_lost})
-        CHECK(count(other.records, kind) == count(reference.records, kind));
+        CHECK(other.log.count(kind) == reference.log.count(kind));
     }
-    events += static_cast<int>(reference.records.size());
+    events += static_cast<int>(reference.log.records.size());
   }
   CHECK(events > 300);
 }
@@ -82,7 +71,7 @@ TEST_CASE("a vertex whose tether broke is captured again after the event interva
     const Run result = run(config, start, method, 1e-3);
     std::map<int, double> broke;
     int at_once = 0, later = 0;
-    for (const EventRecord& e : result.records) {
+    for (const EventRecord& e : result.log.records) {
       if (e.kind == EventKind::yield) broke[e.vertex] = e.time;
       if (e.kind != EventKind::capture || !broke.contains(e.vertex)) continue;
       const double waited = e.time - broke[e.vertex];

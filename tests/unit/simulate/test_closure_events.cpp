@@ -1,51 +1,25 @@
 // Turns that the string of a closure can take.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <map>
 
+#include "support/event_log.hpp"
 #include "support/setup_tissues.hpp"
-#include "suture/setup/protocol.hpp"
-#include "suture/simulate/closure.hpp"
 
 using namespace suture;
 using namespace suture::test;
 
 namespace {
 
-class EventLog final : public ClosureObserver {
- public:
-  void sample(const ClosureSample&) override {}
-  void event(const EventRecord& e) override { records.push_back(e); }
-  long count(EventKind kind) const {
-    return std::ranges::count_if(records, [=](const EventRecord& e) { return e.kind == kind; });
-  }
-  std::vector<EventRecord> records;
-};
-
 Config closing_config(Method method) {
-  Config config = with_contact_distance(small_config());
+  Config config = small_closing_config(method);
   config.run.end_time = 4.0;
-  config.run.closed_area = 1e-3;
-  config.plasticity.tau = 3.0;
-  config.integrator.method = method;
   return config;
 }
 
-const TissueState& wounded() {
-  static const TissueState state = [] {
-    Config config = small_config();
-    config.run.last_stage = Stage::ablation;
-    return prepare_tissue(config).state;
-  }();
-  return state;
-}
-
 ClosureResult close(const Config& config, EventLog& log) {
-  TissueState state = wounded(), last_good;
-  const Tissue configured = make_tissue(config);
-  state.tissue = state.tissue.with_materials(std::vector<CellMaterial>(state.tissue.cell_count(), configured.material(0)));
-  return run_closure(config, std::move(state), log, last_good);
+  TissueState last_good;
+  return run_closure(config, small_wound(config), log, last_good);
 }
 
 }  // namespace

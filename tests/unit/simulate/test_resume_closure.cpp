@@ -5,7 +5,6 @@
 #include "io/model_archive.hpp"
 #include "support/setup_tissues.hpp"
 #include "suture/errors.hpp"
-#include "suture/setup/protocol.hpp"
 #include "suture/simulate/closure.hpp"
 
 using namespace suture;
@@ -46,29 +45,11 @@ class Witness final : public ClosureObserver {
 };
 
 Config closing_config(Method method) {
-  Config config = with_contact_distance(small_config());
+  Config config = small_closing_config(method);
   config.run.end_time = 6.0;
-  config.run.closed_area = 1e-3;
-  config.plasticity.tau = 3.0;
   config.purse_string.yield_length = 0.5;  // dozens of tethers yield and are captured again
   config.checkpoint.interval = 0.2;
-  config.integrator.method = method;
   return config;
-}
-
-const TissueState& wounded() {
-  static const TissueState state = [] {
-    Config config = small_config();
-    config.run.last_stage = Stage::ablation;
-    return prepare_tissue(config).state;
-  }();
-  return state;
-}
-
-TissueState with_materials_of(const Config& config, TissueState state) {
-  const Tissue configured = make_tissue(config);
-  state.tissue = state.tissue.with_materials(std::vector<CellMaterial>(state.tissue.cell_count(), configured.material(0)));
-  return state;
 }
 
 }  // namespace
@@ -88,7 +69,7 @@ TEST_CASE("a closure resumed from a configured checkpoint repeats every bit, bef
     config.purse_string.event_interval = 0.07;  // not a divisor of the checkpoint interval: the grid must be the old one
     Witness whole;
     TissueState last_good;
-    const ClosureResult expected = run_closure(config, with_materials_of(config, wounded()), whole, last_good);
+    const ClosureResult expected = run_closure(config, small_wound(config), whole, last_good);
     REQUIRE(whole.saved.size() >= 5);
     REQUIRE(whole.events > 5);
     int before_events = 0, after_events = 0;
@@ -118,8 +99,8 @@ TEST_CASE("saving at other times leaves a closure as it is, and going on from th
   Witness undisturbed, watched;
   watched.due_every = 7;
   TissueState last_good;
-  run_closure(config, with_materials_of(config, wounded()), undisturbed, last_good);
-  const ClosureResult expected = run_closure(config, with_materials_of(config, wounded()), watched, last_good);
+  run_closure(config, small_wound(config), undisturbed, last_good);
+  const ClosureResult expected = run_closure(config, small_wound(config), watched, last_good);
   CHECK(watched.seen == undisturbed.seen);
   int between = 0;
   for (const Witness::Saved& saved : watched.saved) {
@@ -141,7 +122,7 @@ TEST_CASE("a closure that is asked to stop has saved where it stopped", "[unit][
   Witness stopped;
   stopped.stop_after = 4;
   TissueState last_good;
-  const ClosureResult result = run_closure(config, with_materials_of(config, wounded()), stopped, last_good);
+  const ClosureResult result = run_closure(config, small_wound(config), stopped, last_good);
   CHECK(result.status == ClosureStatus::stopped);
   REQUIRE(!stopped.saved.empty());
   CHECK(stopped.saved.back().time == result.state.time);
@@ -152,7 +133,7 @@ TEST_CASE("a saved closure that is damaged is refused", "[unit][resume]") {
   Witness whole, rest;
   TissueState last_good;
   whole.stop_after = 3;
-  run_closure(config, with_materials_of(config, wounded()), whole, last_good);
+  run_closure(config, small_wound(config), whole, last_good);
   const std::string bytes = whole.saved.back().bytes;
   for (const std::size_t length : {std::size_t{0}, std::size_t{9}, bytes.size() / 2, bytes.size() - 1})
     CHECK_THROWS_AS(resume_closure(config, bytes.substr(0, length), rest, last_good), FileError);
