@@ -116,7 +116,7 @@ std::optional<DueEvents> ClosureEvents::locate_tethers(const Integrator& integra
 
 std::optional<DueEvents> ClosureEvents::locate_captures(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge) {
   if (!locates_captures(false) || !exposure_.settled()) return std::nullopt;
-  watch_grid(state, false, edge);
+  watch(state, false, edge);
   const auto state_at = [&](double t) { return watched_at(t, integrator, state); };
   const std::optional<double> due = exposure_.first_due(state.time, integrator.time(), time_resolution(integrator), state.tissue, state_at, edge);
   return due ? std::optional(DueEvents{*due, {}, true}) : std::nullopt;
@@ -128,8 +128,8 @@ std::optional<DueEvents> ClosureEvents::locate(const Integrator& integrator, con
   return captures;
 }
 
-/// What a grid time reads of the state: the ends of the tethers, the positions of the cells around the wound.
-void ClosureEvents::watch_grid(const TissueState& state, bool tethers, const WoundNeighbourhood& edge) {
+/// What looking for events reads of the state: the ends of the tethers, the positions of the cells around the wound.
+void ClosureEvents::watch(const TissueState& state, bool tethers, const WoundNeighbourhood& edge) {
   watched_.clear();
   if (tethers) add_tethers(state, watched_);
   if (!looks_at_exposure()) return;
@@ -151,7 +151,7 @@ std::optional<DueEvents> ClosureEvents::on_grid(const Integrator& integrator, co
     last_grid_ = last;
     return std::nullopt;
   }
-  watch_grid(state, tethers, edge);
+  watch(state, tethers, edge);
   const auto due_at = [&](long k) -> std::optional<DueEvents> {
     integrator.interpolate_some(std::min(grid_time(k), integrator.time()), watched_, values_);
     const StateView view(state.layout(), values_);

@@ -70,7 +70,7 @@ class ClosureEvents {
   std::optional<DueEvents> locate_captures(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
   std::optional<DueEvents> on_grid(const Integrator& integrator, const TissueState& state, WoundNeighbourhood& edge);
   void make_room(std::size_t components);
-  void watch_grid(const TissueState& state, bool tethers, const WoundNeighbourhood& edge);
+  void watch(const TissueState& state, bool tethers, const WoundNeighbourhood& edge);
   std::optional<DueEvents> after_step(const Integrator& integrator, const TissueState& state);
   bool capture(TissueState& state, WoundNeighbourhood& edge, std::vector<EventRecord>& log);
   /// Whether captures on the grid depend on who is exposed.

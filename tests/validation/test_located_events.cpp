@@ -1,7 +1,6 @@
 // Events that are located in time: runs that are accurate enough have the same ones, and a tether that broke comes back when it may.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -38,28 +37,31 @@ double difference(const TissueState& a, const TissueState& b) {
 }  // namespace
 
 TEST_CASE("accurate runs of two methods take the same way through the first hundred events", "[validation][slow]") {
-  // While captures were decided on the grid, who was caught one grid time later decided: 0.01 to 0.05 l0 by t = 12 at 1e-5 in most wounds, and
-  // 0.005 to 0.05 at 1e-4. Now 1e-4 to 2e-3 and 3e-4 to 5e-3.
+  // Of 40 runs by five methods at 1e-4 and 1e-5 one had another number of events, and none was farther than 0.005 l0 from the reference
+  // (docs/convergence.md): an event that goes two ways is rare, not impossible. With captures on the grid 6 of these 12 stray.
   Config config = with_contact_distance(default_config());
   config.run.end_time = 12.0;
-  int events = 0;
-  for (int seed = 1; seed <= 3; ++seed) {
+  int events = 0, runs = 0, strayed = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
     config.tissue.seed = seed;
     const TissueState start = prepare_tissue(config).state;
     const double l0 = start.tissue.mean_initial_rest_length();
     const Run reference = run(config, start, Method::rkc2, 1e-6);
-    for (const auto& [method, tolerance, bound] : {std::tuple{Method::cvode, 1e-5, 5e-3}, std::tuple{Method::rkc2, 1e-4, 2e-2}}) {
+    for (const auto& [method, tolerance] : {std::pair{Method::cvode, 1e-5}, std::pair{Method::cvode, 1e-4}, std::pair{Method::rkc2, 1e-4}}) {
       const Run other = run(config, start, method, tolerance);
-      CAPTURE(seed, static_cast<int>(method), reference.log.records.size(), other.log.records.size());
       const double error = difference(other.end, reference.end) / l0;
-      CAPTURE(error);
-      CHECK(error < bound);
+      bool same = error < 0.01;
       for (const EventKind kind : {EventKind::yield, EventKind::capture, EventKind::force_lost})
-        CHECK(other.log.count(kind) == reference.log.count(kind));
+        same = same && other.log.count(kind) == reference.log.count(kind);
+      UNSCOPED_INFO("seed " << seed << ", tolerance " << tolerance << ", error " << error << " l0, same way: " << same);
+      ++runs;
+      strayed += !same;
     }
     events += static_cast<int>(reference.log.records.size());
   }
-  CHECK(events > 300);
+  CHECK(runs == 12);
+  CHECK(strayed <= 2);
+  CHECK(events > 400);
 }
 
 TEST_CASE("a vertex whose tether broke is captured again after the event interval, not before", "[validation]") {
