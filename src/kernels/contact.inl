@@ -7,42 +7,38 @@ SUTURE_INLINE Double8 force_over_distance(const ContactScalars& c, Double8 d2) {
          select(inner, broadcast(c.inner_b), broadcast(c.outer_b));
 }
 
-/// Adds the forces of the terms collected, in their order.
-void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms) {
-  typedef double Pair __attribute__((vector_size(16), may_alias));
-  alignas(64) double on_vertex[2 * LiveTerms::room], on_first[2 * LiveTerms::room],
-      on_second[2 * LiveTerms::room];  // dU/dr of the vertex, and minus that of the segment's ends
-  const auto make = [&](int k) {
-    const Double8 x = load(terms.rx + k), y = load(terms.ry + k), t = load(terms.t + k);
-    const Double8 f = with_sign_of(force_over_distance(c, x * x + y * y), t);
-    const Double8 fx = f * x, fy = f * y;
-    store_even_odd(on_vertex + 2 * k, fx, fy);
-    store_even_odd(on_second + 2 * k, t * fx, t * fy);
-    store_even_odd(on_first + 2 * k, fx - t * fx, fy - t * fy);
-  };
-  const auto add = [&](int k, int pair) {
-    const TermSlots at = terms.at(k);
-    Pair *p = reinterpret_cast<Pair*>(s.gradient) + at.p, *q = reinterpret_cast<Pair*>(s.gradient) + at.q;
-    p[0] += *reinterpret_cast<const Pair*>(on_vertex + pair);
-    q[0] -= *reinterpret_cast<const Pair*>(on_first + pair);
-    q[1] -= *reinterpret_cast<const Pair*>(on_second + pair);
-  };
-  // The next eight are made beside these being added, which leaves lanes idle.
-  if (terms.count > 0) make(0);
-  int k = 0;
-  for (; k + lanes <= terms.count; k += lanes) {
-    if (k + lanes < terms.count) make(k + lanes);
-    for (int m = 0; m < lanes; m += 2) {
-      add(k + m, 2 * k + m);
-      add(k + m + 1, 2 * k + lanes + m);
-    }
+typedef double Pair __attribute__((vector_size(16), may_alias));  // a register everywhere
+
+/// dU/dr of the vertices of `count` terms, in whole vectors.
+template <int room>
+SUTURE_INLINE void find_forces(const ContactScalars& c, const Terms<room>& terms, int count, double* pairs) {
+  for (int k = 0; k < count; k += lanes) {
+    const Double8 x = load(terms.rx + k), y = load(terms.ry + k);
+    const Double8 f = with_sign_of(force_over_distance(c, x * x + y * y), load(terms.t + k));
+    store_pairs(pairs + 2 * k, f * x, f * y);
   }
-  for (int m = 0; k + m < terms.count; ++m) add(k + m, 2 * k + m % 2 * lanes + m - m % 2);
+}
+
+/// Adds the forces of the terms of a group. They are found for many terms before: what has just been stored is slow to read in
+/// other pieces.
+void apply(const Shell& s, const ContactScalars& c, const LiveTerms& terms) {
+  alignas(64) double forces[2 * LiveTerms::room];
+  const auto add = [&](TermSlots at, const double* force, double t) {
+    const Pair on_vertex = *reinterpret_cast<const Pair*>(force), on_second = on_vertex * t;
+    Pair *p = reinterpret_cast<Pair*>(s.gradient) + at.p, *q = reinterpret_cast<Pair*>(s.gradient) + at.q;
+    p[0] += on_vertex;
+    q[0] -= on_vertex - on_second;
+    q[1] -= on_second;
+  };
+  find_forces(c, terms.of_middle, terms.batches * lanes, forces);
+  terms.for_each_middle([&](TermSlots at, int k) { add(at, forces + 2 * k, terms.of_middle.t[k]); });
+  find_forces(c, terms.others, terms.count, forces);
+  for (int k = 0; k < terms.count; ++k) add(terms.other_slots[k], forces + 2 * k, terms.others.t[k]);
 }
 
 void contact_gradient(const Shell& s, const ContactScalars& c, const WindowGroup* groups, std::size_t windows,
                       const SelfPair* pairs, std::size_t pair_count) {
-  for_live_terms(s, c, groups, windows, [&](const LiveTerms& terms) { apply(s, c, terms); });
+  for_live_terms(s, c.cutoff2, groups, windows, [&](const LiveTerms& terms) { apply(s, c, terms); });
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
@@ -53,20 +49,22 @@ void contact_gradient(const Shell& s, const ContactScalars& c, const WindowGroup
   }
 }
 
-/// Appends the repulsive terms of those collected.
+/// Appends those of a group's terms, all repulsive, that are added.
 ContactFactor* append_factors(const ContactScalars& c, const LiveTerms& terms, ContactFactor* out) {
+  alignas(64) double on_middle[2 * LiveTerms::windows], on_others[2 * LiveTerms::room];
   const double root = std::sqrt(c.inner_b);
-  for (int k = 0; k < terms.count; k += lanes) {
-    const Double8 x = load(terms.rx + k), y = load(terms.ry + k), d2 = x * x + y * y, scale = root * inverse_square_root(d2);
-    const Mask8 added = less(0.0, with_sign_of(broadcast(1.0), load(terms.t + k)));
-    alignas(64) double nx[lanes], ny[lanes];
-    store(nx, scale * x);
-    store(ny, scale * y);
-    for (unsigned left = bits(less(d2, c.inner2) & added & first_lanes(terms.count - k)); left != 0; left &= left - 1) {
-      const int lane = __builtin_ctz(left);
-      const TermSlots slots = terms.at(k + lane);
-      *out++ = {nx[lane], ny[lane], terms.t[k + lane], slots.p, slots.q};
+  const auto scale = [root](const auto& of, int count, double* pairs) {
+    for (int k = 0; k < count; k += lanes) {
+      const Double8 x = load(of.rx + k), y = load(of.ry + k), over_distance = root * inverse_square_root(x * x + y * y);
+      store_pairs(pairs + 2 * k, over_distance * x, over_distance * y);
     }
+  };
+  scale(terms.of_middle, terms.batches * lanes, on_middle);
+  scale(terms.others, terms.count, on_others);
+  terms.for_each_middle([&](TermSlots at, int k) { *out++ = {on_middle[2 * k], on_middle[2 * k + 1], terms.of_middle.t[k], at.p, at.q}; });
+  for (int k = 0; k < terms.count; ++k) {
+    const TermSlots at = terms.other_slots[k];
+    if (!std::signbit(terms.others.t[k])) *out++ = {on_others[2 * k], on_others[2 * k + 1], terms.others.t[k], at.p, at.q};
   }
   return out;
 }
@@ -74,7 +72,7 @@ ContactFactor* append_factors(const ContactScalars& c, const LiveTerms& terms, C
 std::size_t contact_linearise(const Shell& s, const ContactScalars& c, const WindowGroup* groups, std::size_t windows,
                               const SelfPair* pairs, std::size_t pair_count, ContactFactor* factors) {
   ContactFactor* out = factors;
-  for_live_terms(s, c, groups, windows, [&](const LiveTerms& terms) { out = append_factors(c, terms, out); });
+  for_live_terms(s, c.inner2, groups, windows, [&](const LiveTerms& terms) { out = append_factors(c, terms, out); });
   for (std::size_t k = 0; k < pair_count; ++k) {
     const auto [i, j] = pairs[k];
     const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j], d2 = dx * dx + dy * dy;
@@ -99,7 +97,6 @@ void contact_product(const ContactFactor* factors, std::size_t count, const doub
 }
 
 void contact_diagonal(const ContactFactor* factors, std::size_t count, double* blocks) {
-  typedef double Pair __attribute__((vector_size(16), may_alias));  // a register everywhere
   auto* at = reinterpret_cast<Pair*>(blocks);
   for (std::size_t k = 0; k < count; ++k) {
     const ContactFactor& f = factors[k];

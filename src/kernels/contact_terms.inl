@@ -3,156 +3,147 @@
 //     [0 < t_k < 1] u(segment k)  -  [t_k > 0] u(point k)  +  [t_k >= 1] u(point k + 1),
 // which is zero when the segment is out of reach, so a window may hold any superset of the segments that matter.
 //
-// Nearly every window has one live term. First terms are found with one window per lane and packed one behind the other, so that
-// what is made of them has all lanes in use; the others, at concave corners, follow one by one.
+// Windows are cut so that the nearest segment is the middle one. So nearly every window in reach has one term, u of the point of the
+// middle segment that is nearest to the vertex: inside it, or one of its ends, which is added where the segment beyond it does not
+// begin. These are worked out for all windows, in their places. What else there is, at concave corners and where windows meet, is
+// found with bits of 64 windows at once and follows one by one.
 
 /// Slots of a term: vertex and first end of the segment, or the point.
 using TermSlots = WindowGroup::Slots;
 
-constexpr int segments = suture::kernels::window_segments, points = segments + 1;
+constexpr int segments = suture::kernels::window_segments, points = segments + 1, middle = segments / 2;
 constexpr int batches = WindowGroup::windows / lanes;
 
-/// The live terms of one group, those that are not the first of their window before the others.
-struct LiveTerms {
-  static constexpr int room = WindowGroup::windows * suture::kernels::window_terms + lanes;  ///< packing writes beyond the last
-  int count = 0;
-  /// From the nearest point to the vertex; where on the segment that is, 0 for a point, with the sign bit for a term
-  /// that is subtracted.
+/// From the nearest point to the vertex; where on the segment that is, 0 for a point, with the sign bit for a term that is
+/// subtracted.
+template <int room>
+struct Terms {
   alignas(64) double rx[room], ry[room], t[room];
-  alignas(64) double slots[room];
+};
 
-  TermSlots at(int k) const {
-    TermSlots found;
-    __builtin_memcpy(&found, slots + k, sizeof found);
-    return found;
-  }
-  SUTURE_INLINE void put(unsigned mask, Double8 x, Double8 y, Double8 where, Double8 at) {
-    store_packed(rx + count, mask, x);
-    store_packed(ry + count, mask, y);
-    store_packed(t + count, mask, where);
-    store_packed(slots + count, mask, at);
-    count += set_bits(mask);
+/// The live terms of one group.
+struct LiveTerms {
+  static constexpr int windows = WindowGroup::windows;
+  static constexpr int room = windows * suture::kernels::window_terms + lanes;  ///< read in whole vectors
+  const WindowGroup* group = nullptr;
+  int batches = 0;               ///< of the group that are in use
+  std::uint64_t middle_live = 0; ///< one bit per window
+  Terms<windows> of_middle;      ///< by window, live or not
+  int count = 0;                 ///< of the others
+  Terms<room> others;
+  TermSlots other_slots[room];
+
+  /// use(slots, number of the term in of_middle).
+  template <class Use>
+  SUTURE_INLINE void for_each_middle(Use&& use) const {
+    for (std::uint64_t m = middle_live; m != 0; m &= m - 1) {
+      const int window = __builtin_ctzll(m);
+      const TermSlots& slots = group->slots[window];
+      use(TermSlots{slots.p, slots.q + middle}, window);
+    }
   }
 };
 
-/// One bit per window of a group, made and used as bytes of one batch of eight windows.
-struct Bits {
-  std::uint64_t all = 0;
-  SUTURE_INLINE void put(int batch, Mask8 m) { reinterpret_cast<unsigned char*>(&all)[batch] = static_cast<unsigned char>(bits(m)); }
-  SUTURE_INLINE Mask8 of(int batch) const { return from_bits(reinterpret_cast<const unsigned char*>(&all)[batch]); }
-  bool has(int window) const { return all >> window & 1u; }
-};
-
-/// Where the vertices of a group's windows are: after the start and before the end of a segment, near the points at the ends of
-/// the window; from each point to the vertex.
+/// Where a group's vertices are: one bit per window, made as bytes of one batch of eight windows.
 struct GroupPlaces {
-  Bits after_start[segments], before_end[segments], near_first, near_last;
-  alignas(64) double dx[batches][points][lanes], dy[batches][points][lanes];
+  enum Question { after_start, before_end = after_start + segments, near_first = before_end + segments, near_last, near_middle, questions };
+  unsigned char bytes[questions][batches];
+
+  SUTURE_INLINE void put(int question, int batch, Mask8 m) { bytes[question][batch] = static_cast<unsigned char>(bits(m)); }
+  std::uint64_t operator[](int question) const {
+    std::uint64_t all;
+    __builtin_memcpy(&all, bytes[question], sizeof all);
+    return all;
+  }
 };
 
-SUTURE_INLINE void place(const Shell& s, const ContactScalars& c, const WindowGroup& group, int batch, GroupPlaces& places) {
+SUTURE_INLINE void place(const Shell& s, double reach2, const WindowGroup& group, int batch, GroupPlaces& places, LiveTerms& terms) {
   const WindowGroup::Slots* slots = group.slots + batch * lanes;
-  Double8 dx[points], dy[points];
+  Double8 dx[points], dy[points];  // from the points to the vertex
   load_quads(s.x, &slots->q, dx);
   load_quads(s.y, &slots->q, dy);
   const Double8 px = load_each(s.x, &slots->p), py = load_each(s.y, &slots->p);
-  for (int k = 0; k < points; ++k) {
-    dx[k] = px - dx[k], dy[k] = py - dy[k];
-    store(places.dx[batch][k], dx[k]);
-    store(places.dy[batch][k], dy[k]);
-  }
+  for (int k = 0; k < points; ++k) dx[k] = px - dx[k], dy[k] = py - dy[k];
   for (int k = 0; k < segments; ++k) {
     const Double8 ex = dx[k] - dx[k + 1], ey = dy[k] - dy[k + 1];
-    places.after_start[k].put(batch, less(0.0, dx[k] * ex + dy[k] * ey));
-    places.before_end[k].put(batch, less(dx[k + 1] * ex + dy[k + 1] * ey, 0.0));
+    const Double8 along = dx[k] * ex + dy[k] * ey, length2 = ex * ex + ey * ey;
+    places.put(GroupPlaces::after_start + k, batch, less(0.0, along));
+    places.put(GroupPlaces::before_end + k, batch, less(along, length2));
+    if (k != middle) continue;
+    const Double8 t = minimum(maximum(along * inverse(length2), Double8{}), broadcast(1.0));
+    const Double8 rx = dx[k] - t * ex, ry = dy[k] - t * ey;
+    store(terms.of_middle.rx + batch * lanes, rx);
+    store(terms.of_middle.ry + batch * lanes, ry);
+    store(terms.of_middle.t + batch * lanes, t);
+    places.put(GroupPlaces::near_middle, batch, less(rx * rx + ry * ry, reach2));
   }
-  const auto near = [&](int k) { return less(dx[k] * dx[k] + dy[k] * dy[k], c.cutoff2); };
-  places.near_first.put(batch, near(0));
-  places.near_last.put(batch, near(segments));
+  const auto near = [&](int k) { return less(dx[k] * dx[k] + dy[k] * dy[k], reach2); };
+  places.put(GroupPlaces::near_first, batch, near(0));
+  places.put(GroupPlaces::near_last, batch, near(segments));
 }
 
-/// Which windows have a segment's and a point's term, number by number (segment k goes from point k to k + 1), and where the
-/// point's is added and not subtracted. Terms out of reach are among them, if not those of the first and the last point.
-struct GroupTerms {
-  Bits segment[segments], point[points], added[points];
-  Bits any, several;   ///< windows with terms, with more than one
-  Bits here[points], first_segment, first_added;  ///< of the first term of a window: its number, its kind
+/// Which windows have a segment's and a point's term besides the middle one, number by number (segment k goes from point k to
+/// k + 1), and where the point's is added and not subtracted. Terms out of reach are among them, if not those of the first and
+/// the last point.
+struct OtherTerms {
+  std::uint64_t segment[segments], point[points], added[points];
+  std::uint64_t any;
 };
 
-SUTURE_INLINE GroupTerms find_terms(const GroupPlaces& places, const WindowGroup& group, int used) {
-  const std::uint64_t known = ~std::uint64_t{0} >> (WindowGroup::windows - used * lanes);
-  GroupTerms found;
-  const auto take = [&](Bits& kind, int k, std::uint64_t term) {
-    const std::uint64_t first = term & ~found.any.all;
-    kind.all = term;
-    found.several.all |= found.any.all & term;
-    found.any.all |= term;
-    found.here[k].all |= first;
-    return first;
-  };
+SUTURE_INLINE OtherTerms find_terms(const GroupPlaces& places, LiveTerms& terms) {
+  const std::uint64_t known = ~std::uint64_t{0} >> (WindowGroup::windows - terms.batches * lanes);
+  OtherTerms found{};
+  std::uint64_t start[points]{};
   for (int k = 0; k < segments; ++k) {
-    const std::uint64_t start = places.after_start[k].all & group.segments[k] & known, end = start & ~places.before_end[k].all;
-    const std::uint64_t near = k == 0 ? places.near_first.all : ~std::uint64_t{0};
-    found.first_added.all |= take(found.point[k], k, (start ^ found.added[k].all) & near) & found.added[k].all;
-    found.first_segment.all |= take(found.segment[k], k, start & ~end);
-    found.added[k + 1].all = end;
+    start[k] = places[GroupPlaces::after_start + k] & terms.group->segments[k] & known;
+    found.added[k + 1] = start[k] & ~places[GroupPlaces::before_end + k];
+    found.segment[k] = start[k] & ~found.added[k + 1];
   }
-  found.first_added.all |= take(found.point[segments], segments, found.added[segments].all & places.near_last.all) | found.first_segment.all;
+  for (int k = 0; k < points; ++k) found.point[k] = start[k] ^ found.added[k];
+  // The nearest point of the middle segment is its first end, even if the window does not have that segment; is its second end.
+  const std::uint64_t first = found.added[middle] & ~places[GroupPlaces::after_start + middle];
+  const std::uint64_t second = found.added[middle + 1] & found.point[middle + 1];
+  terms.middle_live = (found.segment[middle] | first | second) & places[GroupPlaces::near_middle];
+  found.segment[middle] = 0;
+  found.point[middle] &= ~first;
+  found.point[middle + 1] &= ~second;
+  found.point[0] &= places[GroupPlaces::near_first];
+  found.point[segments] &= places[GroupPlaces::near_last];
+  for (const std::uint64_t term : found.segment) found.any |= term;
+  for (const std::uint64_t term : found.point) found.any |= term;
   return found;
 }
 
-SUTURE_INLINE void pack_batch(const ContactScalars& c, const WindowGroup& group, int batch, const GroupPlaces& places,
-                              const GroupTerms& found, LiveTerms& terms) {
-  const double(*x)[lanes] = places.dx[batch], (*y)[lanes] = places.dy[batch];
-  Double8 rx = load(x[0]), ry = load(y[0]), nx = load(x[1]), ny = load(y[1]), next{};  // from this point and the next
-  for (int k = 1; k < points; ++k) {
-    const Mask8 here = found.here[k].of(batch);
-    rx = select(here, load(x[k]), rx), ry = select(here, load(y[k]), ry);
-    if (k < segments) nx = select(here, load(x[k + 1]), nx), ny = select(here, load(y[k + 1]), ny);
-    next = select(here, bit_pattern(static_cast<long long>(k) << 32), next);
-  }
-  const Double8 ex = rx - nx, ey = ry - ny;
-  const Double8 t = only(found.first_segment.of(batch), (rx * ex + ry * ey) * inverse(ex * ex + ey * ey));
-  rx = rx - t * ex;
-  ry = ry - t * ey;
-  const Mask8 live = found.any.of(batch) & less(rx * rx + ry * ry, c.cutoff2);
-  terms.put(bits(live), rx, ry, negate(~found.first_added.of(batch), t), add_bits(load_bits(group.slots + batch * lanes), next));
-}
-
-/// All terms in reach of a window with several, but for the first.
-SUTURE_INLINE void append_window(const ContactScalars& c, const WindowGroup& group, int window, const GroupPlaces& places,
-                                 const GroupTerms& found, LiveTerms& terms) {
-  const int batch = window / lanes, lane = window % lanes;
-  const auto x = [&](int k) { return places.dx[batch][k][lane]; };
-  const auto y = [&](int k) { return places.dy[batch][k][lane]; };
-  bool first = true;
+/// All terms in reach of a window but for that of the middle segment.
+SUTURE_INLINE void append_window(const Shell& s, double reach2, int window, const OtherTerms& found, LiveTerms& terms) {
+  const TermSlots slots = terms.group->slots[window];
+  const double px = s.x[slots.p], py = s.y[slots.p];
+  const double *x = s.x + slots.q, *y = s.y + slots.q;
+  const auto has = [window](std::uint64_t bits) { return (bits >> window & 1u) != 0; };
   const auto put = [&](int k, double rx, double ry, double t) {
-    if (!(rx * rx + ry * ry < c.cutoff2)) return;
-    const TermSlots slots{group.slots[window].p, group.slots[window].q + k};
+    if (!(rx * rx + ry * ry < reach2)) return;
     const int at = terms.count++;
-    terms.rx[at] = rx, terms.ry[at] = ry, terms.t[at] = t;
-    __builtin_memcpy(terms.slots + at, &slots, sizeof slots);
+    terms.others.rx[at] = rx, terms.others.ry[at] = ry, terms.others.t[at] = t;
+    terms.other_slots[at] = {slots.p, slots.q + k};
   };
   for (int k = 0; k < points; ++k) {
-    if (found.point[k].has(window) && !std::exchange(first, false)) put(k, x(k), y(k), found.added[k].has(window) ? 0.0 : -0.0);
-    if (k == segments || !found.segment[k].has(window) || std::exchange(first, false)) continue;
-    const double ex = x(k) - x(k + 1), ey = y(k) - y(k + 1);
-    const double t = (x(k) * ex + y(k) * ey) / (ex * ex + ey * ey);
-    put(k, x(k) - t * ex, y(k) - t * ey, t);
+    if (has(found.point[k])) put(k, px - x[k], py - y[k], has(found.added[k]) ? 0.0 : -0.0);
+    if (k == segments || !has(found.segment[k])) continue;
+    const double ex = x[k + 1] - x[k], ey = y[k + 1] - y[k], rx = px - x[k], ry = py - y[k];
+    const double t = (rx * ex + ry * ey) / (ex * ex + ey * ey);
+    put(k, rx - t * ex, ry - t * ey, t);
   }
 }
 
-SUTURE_INLINE void pack(const ContactScalars& c, const WindowGroup& group, int used, const GroupPlaces& places, LiveTerms& terms) {
-  const GroupTerms found = find_terms(places, group, used);
+SUTURE_INLINE void choose(const Shell& s, double reach2, const GroupPlaces& places, LiveTerms& terms) {
+  const OtherTerms found = find_terms(places, terms);
   terms.count = 0;
-  for (std::uint64_t m = found.several.all; m != 0; m &= m - 1)
-    append_window(c, group, __builtin_ctzll(m), places, found, terms);
-  for (int batch = 0; batch < used; ++batch) pack_batch(c, group, batch, places, found, terms);
+  for (std::uint64_t m = found.any; m != 0; m &= m - 1) append_window(s, reach2, __builtin_ctzll(m), found, terms);
 }
 
-/// Calls use(terms) with the live terms of each group.
+/// Calls use(terms) with the terms of each group that are nearer than the root of reach2, which is at most the contact's reach.
 template <class Use>
-SUTURE_INLINE void for_live_terms(const Shell& s, const ContactScalars& c, const WindowGroup* groups, std::size_t windows, Use&& use) {
+SUTURE_INLINE void for_live_terms(const Shell& s, double reach2, const WindowGroup* groups, std::size_t windows, Use&& use) {
   const int count = static_cast<int>((windows + WindowGroup::windows - 1) / WindowGroup::windows);
   const auto used = [&](int k) {
     const std::size_t left = windows - static_cast<std::size_t>(k) * WindowGroup::windows;
@@ -161,11 +152,14 @@ SUTURE_INLINE void for_live_terms(const Shell& s, const ContactScalars& c, const
   // What a pass stores the next one reads in other pieces, which a store just made would hold up. So the passes work on
   // successive groups.
   GroupPlaces places[2];
-  LiveTerms terms[2];
+  LiveTerms terms[3];
   for (int k = 0; k < count + 2; ++k) {
-    if (k < count)
-      for (int batch = 0; batch < used(k); ++batch) place(s, c, groups[k], batch, places[k % 2]);
-    if (k >= 1 && k <= count) pack(c, groups[k - 1], used(k - 1), places[(k - 1) % 2], terms[(k - 1) % 2]);
-    if (k >= 2) use(terms[k % 2]);
+    if (k < count) {
+      LiveTerms& here = terms[k % 3];
+      here.group = groups + k, here.batches = used(k);
+      for (int batch = 0; batch < here.batches; ++batch) place(s, reach2, groups[k], batch, places[k % 2], here);
+    }
+    if (k >= 1 && k <= count) choose(s, reach2, places[(k - 1) % 2], terms[(k - 1) % 3]);
+    if (k >= 2) use(terms[(k - 2) % 3]);
   }
 }

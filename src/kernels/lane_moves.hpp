@@ -49,20 +49,6 @@ SUTURE_INLINE void store_pairs(double* p, Double8 x, Double8 y) {
   }
 #endif
 }
-/// Stores (x, y) of lane k at p + 8 (k % 2) + k - k % 2, which takes fewer instructions.
-SUTURE_INLINE void store_even_odd(double* p, Double8 x, Double8 y) {
-  for (int i = 0; i < registers; ++i) {
-#if defined(__AVX512F__)
-    const Native even = _mm512_unpacklo_pd(x.r[i], y.r[i]), odd = _mm512_unpackhi_pd(x.r[i], y.r[i]);
-#elif defined(__AVX2__)
-    const Native even = _mm256_unpacklo_pd(x.r[i], y.r[i]), odd = _mm256_unpackhi_pd(x.r[i], y.r[i]);
-#else
-    const Native even = _mm_unpacklo_pd(x.r[i], y.r[i]), odd = _mm_unpackhi_pd(x.r[i], y.r[i]);
-#endif
-    *reinterpret_cast<UnalignedNative*>(p + i * width) = even;
-    *reinterpret_cast<UnalignedNative*>(p + lanes + i * width) = odd;
-  }
-}
 /// a moved up by one lane; its first lane is the last one of `before`.
 SUTURE_INLINE Double8 shift_in(Double8 before, Double8 a) {
   Double8 r;
@@ -78,30 +64,24 @@ SUTURE_INLINE Double8 shift_in(Double8 before, Double8 a) {
   }
   return r;
 }
-/// The same 64 bits in every lane.
-SUTURE_INLINE Double8 bit_pattern(long long n) {
-  typedef long long Bits __attribute__((vector_size(width * 8)));
-  Double8 a;
-  for (int i = 0; i < registers; ++i) a.r[i] = reinterpret_cast<Native>(Bits{} + n);
-  return a;
+#if defined(__AVX2__)
+/// p[i[0]], p[i[2]], p[i[4]], p[i[6]]. Each is loaded into its lane: blends have more ports than shuffles and gathers.
+SUTURE_INLINE __m256d load_four(const double* p, const int* i) {
+  const __m256d low = _mm256_blend_pd(_mm256_loadu_pd(p + i[0]), _mm256_loadu_pd(p + i[2] - 1), 2);
+  const __m256d high = _mm256_blend_pd(_mm256_loadu_pd(p + i[4] - 2), _mm256_loadu_pd(p + i[6] - 3), 8);
+  return _mm256_blend_pd(low, high, 12);
 }
-/// The sums of the bit patterns as integers.
-SUTURE_INLINE Double8 add_bits(Double8 a, Double8 n) {
-  typedef long long Bits __attribute__((vector_size(width * 8)));
-  for (int i = 0; i < registers; ++i)
-    a.r[i] = reinterpret_cast<Native>(reinterpret_cast<Bits>(a.r[i]) + reinterpret_cast<Bits>(n.r[i]));
-  return a;
-}
-/// Lane k from p + i[2 k]; i is every other number of sixteen.
+#endif
+/// Lane k from p + i[2 k]; i is every other number of sixteen. What is up to three before and after each can be read, too.
 SUTURE_INLINE Double8 load_each(const double* p, const int* i) {
 #if defined(__AVX512F__)
-  return {{_mm512_i32gather_pd(_mm512_cvtepi64_epi32(_mm512_loadu_si512(i)), p, 8)}};
+  return {{_mm512_insertf64x4(_mm512_castpd256_pd512(load_four(p, i)), load_four(p, i + 8), 1)}};
 #else
   Double8 a;
   for (int k = 0; k < registers; ++k) {
     const int* j = i + 2 * k * width;
 #if defined(__AVX2__)
-    a.r[k] = _mm256_set_pd(p[j[6]], p[j[4]], p[j[2]], p[j[0]]);
+    a.r[k] = load_four(p, j);
 #else
     a.r[k] = _mm_set_pd(p[j[2]], p[j[0]]);
 #endif

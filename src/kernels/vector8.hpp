@@ -34,12 +34,6 @@ SUTURE_INLINE Double8 load(const double* p) {
   for (int i = 0; i < registers; ++i) a.r[i] = *reinterpret_cast<const UnalignedNative*>(p + i * width);
   return a;
 }
-/// Eight numbers of 64 bits, whatever they are.
-SUTURE_INLINE Double8 load_bits(const void* p) {
-  Double8 a;
-  __builtin_memcpy(&a, p, sizeof a);
-  return a;
-}
 SUTURE_INLINE void store(double* p, Double8 a) {
   for (int i = 0; i < registers; ++i) *reinterpret_cast<UnalignedNative*>(p + i * width) = a.r[i];
 }
@@ -67,16 +61,17 @@ SUTURE_INLINE Double8 operator-(Double8 a) {
   return a;
 }
 
-SUTURE_INLINE Double8 square_root(Double8 a) {
-  for (int i = 0; i < registers; ++i) {
+/// The intrinsic of this width.
 #if defined(__AVX512F__)
-    a.r[i] = _mm512_sqrt_pd(a.r[i]);
+#define SUTURE_NATIVE(name) _mm512_##name##_pd
 #elif defined(__AVX2__)
-    a.r[i] = _mm256_sqrt_pd(a.r[i]);
+#define SUTURE_NATIVE(name) _mm256_##name##_pd
 #else
-    a.r[i] = _mm_sqrt_pd(a.r[i]);
+#define SUTURE_NATIVE(name) _mm_##name##_pd
 #endif
-  }
+
+SUTURE_INLINE Double8 square_root(Double8 a) {
+  for (int i = 0; i < registers; ++i) a.r[i] = SUTURE_NATIVE(sqrt)(a.r[i]);
   return a;
 }
 
@@ -127,7 +122,6 @@ SUTURE_INLINE unsigned bits(Mask8 a) { return a.m; }
 SUTURE_INLINE Mask8 from_bits(unsigned bits) { return {static_cast<__mmask8>(bits)}; }
 SUTURE_INLINE Mask8 operator&(Mask8 a, Mask8 b) { return from_bits(a.m & b.m); }
 SUTURE_INLINE Mask8 operator|(Mask8 a, Mask8 b) { return from_bits(a.m | b.m); }
-SUTURE_INLINE Mask8 operator^(Mask8 a, Mask8 b) { return from_bits(a.m ^ b.m); }
 SUTURE_INLINE Mask8 operator~(Mask8 a) { return from_bits(~a.m); }
 #else
 typedef long long NativeMask __attribute__((vector_size(width * 8)));
@@ -165,21 +159,10 @@ alignas(64) constexpr long long ladder[24] = {0,  0,  0,  0,  0, 0, 0, 0, -1, -1
   }
 SUTURE_OPERATOR(&)
 SUTURE_OPERATOR(|)
-SUTURE_OPERATOR(^)
 #undef SUTURE_OPERATOR
 SUTURE_INLINE Mask8 operator~(Mask8 a) {
   for (int i = 0; i < registers; ++i) a.m[i] = ~a.m[i];
   return a;
-}
-alignas(64) constexpr long long lane_bit[lanes] = {1, 2, 4, 8, 16, 32, 64, 128};
-/// Lane k where bit k is set.
-SUTURE_INLINE Mask8 from_bits(unsigned bits) {
-  Mask8 r;
-  for (int i = 0; i < registers; ++i) {
-    const NativeMask own = *reinterpret_cast<const NativeMask*>(lane_bit + i * width);
-    r.m[i] = ((NativeMask{} + static_cast<long long>(bits)) & own) == own;
-  }
-  return r;
 }
 #endif
 SUTURE_INLINE Mask8 less(Double8 a, double b) { return less(a, broadcast(b)); }
@@ -190,17 +173,6 @@ SUTURE_INLINE Double8 only(Mask8 m, Double8 a) {
   return {{_mm512_maskz_mov_pd(m.m, a.r[0])}};
 #else
   for (int i = 0; i < registers; ++i) a.r[i] = reinterpret_cast<Native>(m.m[i] & reinterpret_cast<NativeMask>(a.r[i]));
-  return a;
-#endif
-}
-/// -a where m, a elsewhere.
-SUTURE_INLINE Double8 negate(Mask8 m, Double8 a) {
-#if defined(__AVX512F__) && defined(__AVX512DQ__)
-  return {{_mm512_mask_xor_pd(a.r[0], m.m, a.r[0], _mm512_set1_pd(-0.0))}};
-#else
-  for (int i = 0; i < registers; ++i)
-    a.r[i] = reinterpret_cast<Native>(reinterpret_cast<NativeMask>(a.r[i]) ^
-                                      (m.m[i] & (NativeMask{} + static_cast<long long>(1ull << 63))));
   return a;
 #endif
 }
@@ -228,8 +200,17 @@ SUTURE_INLINE Mask8 first_lanes(int n) {
 #endif
 }
 
-SUTURE_INLINE Double8 maximum(Double8 a, Double8 b) { return select(less(b, a), a, b); }
-SUTURE_INLINE Double8 minimum(Double8 a, Double8 b) { return select(less(a, b), a, b); }
+/// a where a > b (minimum: a < b), b elsewhere: b for what is not a number.
+SUTURE_INLINE Double8 maximum(Double8 a, Double8 b) {
+  for (int i = 0; i < registers; ++i) a.r[i] = SUTURE_NATIVE(max)(a.r[i], b.r[i]);
+  return a;
+}
+SUTURE_INLINE Double8 minimum(Double8 a, Double8 b) {
+  for (int i = 0; i < registers; ++i) a.r[i] = SUTURE_NATIVE(min)(a.r[i], b.r[i]);
+  return a;
+}
+
+#undef SUTURE_NATIVE
 
 /// Sum of all lanes.
 SUTURE_INLINE double sum(Double8 a) {
