@@ -83,8 +83,7 @@ SUTURE_INLINE void place(const Shell& s, double reach2, const WindowGroup& group
 }
 
 /// Which windows have a segment's and a point's term besides the middle one, number by number (segment k goes from point k to
-/// k + 1), and where the point's is added and not subtracted. Terms out of reach are among them, if not those of the first and
-/// the last point.
+/// k + 1), and where the point's is added and not subtracted. Segments out of reach are among them.
 struct OtherTerms {
   std::uint64_t segment[segments], point[points], added[points];
   std::uint64_t any;
@@ -105,8 +104,9 @@ SUTURE_INLINE OtherTerms find_terms(const GroupPlaces& places, LiveTerms& terms)
   const std::uint64_t second = found.added[middle + 1] & found.point[middle + 1];
   terms.middle_live = (found.segment[middle] | first | second) & places[GroupPlaces::near_middle];
   found.segment[middle] = 0;
-  found.point[middle] &= ~first;
-  found.point[middle + 1] &= ~second;
+  // Where the middle segment is out of reach, so are its ends.
+  found.point[middle] &= ~first & places[GroupPlaces::near_middle];
+  found.point[middle + 1] &= ~second & places[GroupPlaces::near_middle];
   found.point[0] &= places[GroupPlaces::near_first];
   found.point[segments] &= places[GroupPlaces::near_last];
   for (const std::uint64_t term : found.segment) found.any |= term;
