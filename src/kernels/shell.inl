@@ -129,6 +129,12 @@ inline void rest_length_rate(const Shell& s, int cell, const double* rest, const
   const double *length = s.length + s.base[cell] + 1, *reference = flow.reference + vertex;
   double* rate = flow.rate + vertex;
   const double inverse_tau = flow.inverse_tau[cell], memory = flow.memory[cell];
+  if (memory == 0.0) {  // the same value, and the reference is not read
+    for_vectors(
+        s.count[cell], [&](int k) { store(rate + k, -inverse_tau * (load(rest + k) - load(length + k))); },
+        [&](int k) { rate[k] = -inverse_tau * (rest[k] - length[k]); });
+    return;
+  }
   for_vectors(
       s.count[cell],
       [&](int k) {
