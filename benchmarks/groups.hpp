@@ -21,6 +21,8 @@ void measure_cases(const Settings& settings, Report& report, const Packed& wound
 void measure_large_tissues(const Settings& settings, Report& report);
 /// What an error of 1e-3 l0 costs by Euler, rkc2 and cvode: nodes of k_a and tau, n_v, stiff rings.
 void measure_rivals(const Settings& settings, Report& report);
+/// The same in closures with all events: nodes, embryos.
+void measure_rivals_with_events(const Settings& settings, Report& report);
 /// Actual over requested error on the grid of k_a and tau.
 void measure_tolerance_grid(const Settings& settings, Report& report, const Packed& wounded);
 

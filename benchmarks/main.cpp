@@ -12,21 +12,22 @@ namespace suture::benchmark {
 
 namespace {
 
-constexpr const char* group_names[] = {"kernels", "rate", "packing", "closures", "ladders", "cases", "grid", "rivals", "large"};
+constexpr const char* group_names[] = {"kernels", "rate", "packing", "closures", "ladders", "cases", "grid", "rivals", "events", "large"};
 
 void measure(const Settings& settings, Report& report) {
   if (settings.wants("kernels")) measure_kernels(settings, report);
   if (settings.wants("rate")) measure_rates(settings, report);
   if (settings.wants("packing")) measure_packing(settings, report);
   if (settings.wants("large")) measure_large_tissues(settings, report);
-  const bool smooth = settings.wants("ladders") || settings.wants("cases") || settings.wants("grid") || settings.wants("rivals");
+  if (settings.wants("rivals")) measure_rivals(settings, report);
+  if (settings.wants("events")) measure_rivals_with_events(settings, report);
+  const bool smooth = settings.wants("ladders") || settings.wants("cases") || settings.wants("grid");
   if (!smooth && !settings.wants("closures")) return;
   const Packed wounded = wounded_tissue(settings.smoke);
   if (settings.wants("closures")) measure_closures(settings, report, wounded);
   if (settings.wants("ladders")) measure_ladders(settings, report, wounded);
   if (settings.wants("cases")) measure_cases(settings, report, wounded);
   if (settings.wants("grid")) measure_tolerance_grid(settings, report, wounded);
-  if (settings.wants("rivals")) measure_rivals(settings, report);
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
   program.add_option("--repeats", settings.repeats, "medians over so many")->check(CLI::Range(1, 1000))->capture_default_str();
   program.add_flag("--long", settings.long_runs, "whole closures, full horizons, largest tissues");
   program.add_flag("--smoke", settings.smoke, "everything once, on the smallest problems");
-  program.add_option("--groups", settings.groups, "kernels, rate, packing, closures, ladders, cases, grid, rivals, large [all]")
+  program.add_option("--groups", settings.groups, "kernels, rate, packing, closures, ladders, cases, grid, rivals, events, large [all]")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<std::string>(std::begin(group_names), std::end(group_names))));
   program.add_option("--json", json, "file for the results")->capture_default_str();

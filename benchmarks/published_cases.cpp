@@ -77,7 +77,7 @@ void measure_cases(const Settings& settings, Report& report, const Packed& wound
 namespace {
 
 struct GridProblem {
-  Smooth smooth;
+  Problem smooth;
   SampledReference reference;
 };
 
@@ -91,7 +91,7 @@ GridProblem grid_problem(std::vector<Packed>& wounds, bool small, double area_st
     Packed material = wounds[seed - 1];
     set_material(material, area_stiffness, tau);
     GridProblem problem{{material.config, with_ring(material.config, material.state)}, {}};
-    problem.reference = sampled_reference(problem.smooth, horizon, 1e-7, agreement);
+    problem.reference = sampled_reference(problem.smooth, horizon, 20, 1e-7, agreement);
     if (problem.reference.count() > longest.reference.count()) longest = std::move(problem);
     if (longest.reference.agreed_until() >= 0.25 * horizon) break;
   }
@@ -111,7 +111,7 @@ void measure_tolerance_grid(const Settings& settings, Report& report, const Pack
       const auto [problem, reference] = grid_problem(wounds, settings.smoke, area_stiffness, tau, horizon, 0.1 * tightest);
       for (const Method method : {Method::cvode, Method::rkc2})
         for (const double tolerance : {1e-2, 1e-3, tightest}) {
-          const Samples run = sample(problem, with_tolerance(method, tolerance, problem.state), reference.interval, reference.count());
+          const Samples run = sample(problem, method, tolerance, reference.interval, reference.count());
           const double error = sampled_error(problem, run, reference);
           Measurement m{"grid", method_name(method), {{"k_a", area_stiffness}, {"tau", tau}, {"tolerance", tolerance}, {"horizon", horizon}, {"seed", static_cast<double>(problem.config.tissue.seed)}}, {}};
           m.values = {{"error", error}, {"ratio", error / tolerance}, {"within", error >= 0.01 * tolerance && error <= 10.0 * tolerance},

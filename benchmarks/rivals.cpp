@@ -1,5 +1,5 @@
 // What 1e-3 l0 costs by each method: the cheapest run whose error is no larger, Euler with the largest step that is stable and
-// accurate enough, on smooth problems (ring on, no events) up to the time at which two references part.
+// accurate enough, on smooth problems (ring on, no events) and closures with all events, up to the time at which two references part.
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -32,28 +32,24 @@ struct KeptMemory {
 
 struct Run {
   double value = 0.0, error = 0.0, seconds = 0.0;  // tolerance or step
+  bool accurate = false;
   Statistics statistics;
 };
 
-/// Loosest of `values`, tried in order, whose error is small enough; none if all have taken another branch or are unstable.
-std::optional<Run> cheapest(const Smooth& problem, const SampledReference& reference, Method method, const std::vector<double>& values, int repeats) {
-  for (const double value : values) {
-    const IntegratorOptions options =
-        method == Method::euler ? with_step(method, value, problem.state) : with_tolerance(method, value, problem.state);
-    Run run;
-    run.value = value;
-    try {
-      const Samples samples = sample(problem, options, reference.interval, reference.count());
-      run.error = sampled_error(problem, samples, reference);
-      run.statistics = samples.statistics;
-    } catch (const NumericalError&) {
-      continue;  // a step beyond the stability limit
+/// Loosest of `values`, tried in order, whose error is small enough; the last one if all have taken another branch; none if all are
+/// unstable.
+std::optional<Run> cheapest(const Problem& problem, const SampledReference& reference, Method method, const std::vector<double>& values, int repeats) {
+  std::optional<Run> found;
+  for (const double value : values) try {
+      const Samples samples = sample(problem, method, value, reference.interval, reference.count());
+      const double error = sampled_error(problem, samples, reference);
+      found = Run{value, error, 0.0, error <= asked, samples.statistics};
+      if (found->accurate) break;
+    } catch (const NumericalError&) {  // a step beyond the stability limit
     }
-    if (!(run.error <= asked)) continue;
-    run.seconds = time_calls(repeats, [&] { sample(problem, options, reference.interval, reference.count()); }).median;
-    return run;
-  }
-  return std::nullopt;
+  if (found)
+    found->seconds = time_calls(repeats, [&] { sample(problem, method, found->value, reference.interval, reference.count()); }).median;
+  return found;
 }
 
 /// From above the stability limit at 30 vertices down; stiffness grows as the square of their number.
@@ -63,20 +59,35 @@ std::vector<double> euler_steps(int vertices, double stiffening) {
   return steps;
 }
 
-void compare(const Settings& settings, Report& report, const std::string& name, const Packed& wounded, double horizon, double stiffening) {
-  const Smooth problem{wounded.config, with_ring(wounded.config, wounded.state)};
-  const SampledReference reference = sampled_reference(problem, horizon, 1e-2 * asked, 0.1 * asked);
-  if (reference.count() == 0) return fmt::print("rivals: the references of '{}' agree nowhere\n", name);
-  std::vector<double> tolerances;  // four per decade
-  for (int k = 8; k <= 18; ++k) tolerances.push_back(std::pow(10.0, -0.25 * k));
-  const std::pair<Method, std::vector<double>> methods[] = {
-      {Method::euler, euler_steps(wounded.config.tissue.vertices, stiffening)}, {Method::rkc2, tolerances}, {Method::cvode, tolerances}, {Method::automatic, tolerances}};
+/// Four per decade.
+std::vector<double> tolerances(double loosest, double tightest) {
+  std::vector<double> values;
+  for (int k = 0; loosest * std::pow(10.0, -0.25 * k) > 0.99 * tightest; ++k) values.push_back(loosest * std::pow(10.0, -0.25 * k));
+  return values;
+}
+
+/// Of Euler: from the edge of stability down by factors of two, then between the last two.
+std::optional<Run> largest_step(const Problem& problem, const SampledReference& reference, int repeats) {
+  std::vector<double> steps;
+  for (double step = 0.004; step > 1e-4; step *= 0.5) steps.push_back(step);
+  std::optional<Run> found = cheapest(problem, reference, Method::euler, steps, repeats);
+  if (!found || !found->accurate || found->value == steps.front()) return found;
+  const std::optional<Run> larger = cheapest(problem, reference, Method::euler, {1.6 * found->value, 1.25 * found->value}, repeats);
+  return larger && larger->accurate ? larger : found;
+}
+
+using Search = std::function<std::optional<Run>()>;
+
+void compare_with(const Problem& problem, const SampledReference& reference, const std::string& group, const std::string& name, const Search& euler,
+                  const std::vector<double>& adaptive, const Settings& settings, Report& report) {
+  if (reference.count() == 0) return fmt::print("{}: the references of '{}' agree nowhere\n", group, name);
+  const Config& config = problem.config;
   double euler_seconds = 0.0, rkc2_seconds = 0.0;
-  for (const auto& [method, values] : methods) {
-    const std::optional<Run> found = cheapest(problem, reference, method, values, settings.repeats);
-    Measurement m{"rivals", fmt::format("{}: {}", name, method_name(method)), {}, {}};
-    m.parameters = {{"k_a", wounded.config.area.stiffness}, {"tau", wounded.config.plasticity.tau}, {"n_v", wounded.config.tissue.vertices},
-                    {"ring_stiffness", wounded.config.purse_string.stiffness}, {"seed", static_cast<double>(wounded.config.tissue.seed)}, {"agreed_until", reference.agreed_until()}};
+  for (const Method method : {Method::euler, Method::rkc2, Method::cvode, Method::automatic}) {
+    const std::optional<Run> found = method == Method::euler ? euler() : cheapest(problem, reference, method, adaptive, settings.repeats);
+    Measurement m{group, fmt::format("{}: {}", name, method_name(method)), {}, {}};
+    m.parameters = {{"k_a", config.area.stiffness}, {"tau", config.plasticity.tau}, {"n_v", config.tissue.vertices},
+                    {"ring_stiffness", config.purse_string.stiffness}, {"seed", static_cast<double>(config.tissue.seed)}, {"agreed_until", reference.agreed_until()}};
     if (!found) {
       m.values = {{"failed", 1}};
       report.add(std::move(m));
@@ -84,13 +95,30 @@ void compare(const Settings& settings, Report& report, const std::string& name, 
     }
     const Run& run = *found;
     if (method == Method::euler) euler_seconds = run.seconds;
-    if (method == Method::rkc2) rkc2_seconds = run.seconds;
-    m.values = {{"tolerance_or_step", run.value}, {"error", run.error}, {"seconds", run.seconds}};
-    if (euler_seconds > 0.0) m.values.emplace_back("euler_over_this", euler_seconds / run.seconds);  // unless Euler failed
-    if (rkc2_seconds > 0.0) m.values.emplace_back("this_over_rkc2", run.seconds / rkc2_seconds);     // not of Euler, which comes first
+    if (method == Method::rkc2 && run.accurate) rkc2_seconds = run.seconds;
+    m.values = {{"tolerance_or_step", run.value}, {"error", run.error}, {"seconds", run.seconds}, {"accurate", run.accurate}};
+    // Unless Euler failed; at least so much where its smallest step is not accurate.
+    if (euler_seconds > 0.0 && run.accurate) m.values.emplace_back("euler_over_this", euler_seconds / run.seconds);
+    if (rkc2_seconds > 0.0 && run.accurate) m.values.emplace_back("this_over_rkc2", run.seconds / rkc2_seconds);     // not of Euler, which comes first
     append_counts(m, run.statistics);
     report.add(std::move(m));
   }
+}
+
+void compare(const Settings& settings, Report& report, const std::string& name, const Packed& wounded, double horizon, double stiffening) {
+  const Problem problem{wounded.config, with_ring(wounded.config, wounded.state)};
+  const SampledReference reference = sampled_reference(problem, horizon, 20, 1e-2 * asked, 0.1 * asked);
+  const std::vector<double> steps = euler_steps(wounded.config.tissue.vertices, stiffening);
+  compare_with(problem, reference, "rivals", name, [&] { return cheapest(problem, reference, Method::euler, steps, settings.repeats); },
+               tolerances(1e-2, 3e-5), settings, report);
+}
+
+/// With all events. Errors are some ten times the tolerance there, so references must be tighter.
+void compare_closures(const Settings& settings, Report& report, const std::string& name, const Packed& wounded, double horizon) {
+  const Problem problem{wounded.config, wounded.state, true};
+  const SampledReference reference = sampled_reference(problem, horizon, static_cast<int>(std::ceil(2.0 * horizon)), 1e-4 * asked, 0.1 * asked);
+  compare_with(problem, reference, "events", name, [&] { return largest_step(problem, reference, settings.repeats); }, tolerances(1e-2, 1e-6), settings,
+               report);
 }
 
 /// A material, contacts or string other than the embryo's; how many times its fastest motion is faster, roughly.
@@ -126,23 +154,28 @@ const Variant variants[] = {
     {"all stiff", [](Config& c) { c.membrane.stiffness = 10.0, c.bending.stiffness = 1.0, c.area.stiffness = 256.0, c.contact.energy *= 10.0; }, 50.0},
 };
 
+/// The nodes of Fig. 3 whose values are published.
+template <class Visit>
+void for_each_node(const Packed& wounded, bool smoke, const Visit& visit) {
+  for (const double area_stiffness : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 40.0})
+    for (const double tau : {4.8, 9.6, 76.8, 1228.8, 9830.4, 39321.6}) {
+      if (smoke && (area_stiffness != 16.0 || tau != 76.8)) continue;
+      Packed node = wounded;
+      set_material(node, area_stiffness, tau);
+      visit(node);
+    }
+}
+
 }  // namespace
 
 void measure_rivals(const Settings& settings, Report& report) {
   const KeptMemory kept;
   const double horizon = settings.smoke ? 0.1 : settings.long_runs ? 40.0 : 10.0;
-  // The nodes of Fig. 3 whose values are published, on several wounds: how soon references part depends on the wound.
-  std::vector<Packed> wounds;
+  std::vector<Packed> wounds;  // how soon references part depends on the wound
   for (const std::uint64_t seed : {1, 2, 3, 4, 5})
     if (wounds.empty() || !settings.smoke) wounds.push_back(wounded_tissue(settings.smoke, {}, seed));
   for (const Packed& wounded : wounds)
-    for (const double area_stiffness : {1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 40.0})
-      for (const double tau : {4.8, 9.6, 76.8, 1228.8, 9830.4, 39321.6}) {
-        if (settings.smoke && (area_stiffness != 16.0 || tau != 76.8)) continue;
-        Packed node = wounded;
-        set_material(node, area_stiffness, tau);
-        compare(settings, report, "node", node, horizon, 1.0);
-      }
+    for_each_node(wounded, settings.smoke, [&](const Packed& node) { compare(settings, report, "node", node, horizon, 1.0); });
   if (settings.smoke) return;
   for (const Variant& variant : variants)
     for (const Packed& wounded : {wounds[0], wounds[1]}) {
@@ -162,6 +195,18 @@ void measure_rivals(const Settings& settings, Report& report) {
       } catch (const NumericalError& error) {
         fmt::print("rivals: n_v {}, seed {}: {}\n", vertices, seed, error.what());
       }
+}
+
+void measure_rivals_with_events(const Settings& settings, Report& report) {
+  const KeptMemory kept;
+  const double horizon = settings.smoke ? 0.5 : 45.0;
+  const Packed wounded = wounded_tissue(settings.smoke, {}, 1);
+  for_each_node(wounded, settings.smoke, [&](const Packed& node) { compare_closures(settings, report, "node", node, horizon); });
+  for (std::uint64_t seed = 1; seed <= (settings.smoke ? 0 : 10); ++seed) {
+    Packed embryo = wounded_tissue(false, {}, seed);
+    set_material(embryo, 16.0, 9.6);
+    compare_closures(settings, report, "embryo", embryo, settings.long_runs ? 140.0 : horizon);  // it closes at 130
+  }
 }
 
 }  // namespace suture::benchmark

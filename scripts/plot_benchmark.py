@@ -2,7 +2,8 @@
 """Tables and pictures of benchmark.json: scripts/plot_benchmark.py BENCHMARK.json OUT_DIR
 
 grid    -> tolerance_grid.csv, tolerance_grid.png   (error over tolerance)
-rivals  -> rivals.csv                               (what 1e-3 l0 costs by each method)
+rivals  -> rivals.csv                               (what 1e-3 l0 costs by each method, without events)
+events  -> events.csv, events.png                   (the same in closures)
 """
 import csv
 import json
@@ -50,6 +51,29 @@ def plot_grid(rows, path):
     figure.savefig(path, dpi=150, bbox_inches="tight")
 
 
+def plot_events(rows, path):
+    """How many times as long Euler takes, by node of Fig. 3."""
+    nodes = [row for row in rows if row["name"].startswith("node") and "euler_over_this" in row]
+    methods = [m for m in ("rkc2", "cvode", "auto") if any(row["name"].endswith(": " + m) for row in nodes)]
+    finest = {(r["k_a"], r["tau"]) for r in rows if r["name"] == "node: euler" and not r.get("accurate")}  # a bound only
+    area_stiffnesses = sorted({row["k_a"] for row in nodes})
+    figure, panels = plt.subplots(1, len(methods), figsize=(11, 4), sharey=True, squeeze=False)
+    for panel, method in zip(panels[0], methods):
+        panel.axhline(3, color="0.6", linewidth=0.8)
+        for k, area_stiffness in enumerate(area_stiffnesses):
+            shade = plt.cm.viridis(k / (len(area_stiffnesses) - 0.5))
+            for row in nodes:
+                if row["k_a"] == area_stiffness and row["name"].endswith(": " + method):
+                    bound = (row["k_a"], row["tau"]) in finest
+                    panel.scatter(row["tau"], row["euler_over_this"], s=30, color=shade, marker="^" if bound else "o")
+            panel.scatter([], [], color=shade, label=f"$k_a$ = {area_stiffness:g}")
+        panel.scatter([], [], color="0.5", marker="^", label="at least")
+        panel.set(xscale="log", yscale="log", xlabel=r"$\tau$", title=method)
+    panels[0][0].set_ylabel("Euler's seconds over this method's,\nerror at most 0.001 $l_0$")
+    panels[0][-1].legend(loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
+    figure.savefig(path, dpi=150, bbox_inches="tight")
+
+
 def main(source, folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -60,6 +84,10 @@ def main(source, folder):
         plot_grid(grid, folder / "tolerance_grid.png")
     if rivals:
         write_csv(rivals, folder / "rivals.csv")
+    events = rows_of(measurements, "events")
+    if events:
+        write_csv(events, folder / "events.csv")
+        plot_events(events, folder / "events.png")
 
 
 if __name__ == "__main__":
