@@ -116,7 +116,7 @@ void compare(const Settings& settings, Report& report, const std::string& name, 
 /// With all events. Errors are some ten times the tolerance there, so references must be tighter.
 void compare_closures(const Settings& settings, Report& report, const std::string& name, const Packed& wounded, double horizon) {
   const Problem problem{wounded.config, wounded.state, true};
-  const SampledReference reference = sampled_reference(problem, horizon, static_cast<int>(std::ceil(2.0 * horizon)), 1e-4 * asked, 0.1 * asked);
+  const SampledReference reference = sampled_reference(problem, horizon, static_cast<int>(std::ceil(2.0 * horizon)), 1e-5 * asked, 0.1 * asked);
   compare_with(problem, reference, "events", name, [&] { return largest_step(problem, reference, settings.repeats); }, tolerances(1e-2, 1e-6), settings,
                report);
 }
