@@ -34,7 +34,10 @@ class PositionObserver final : public ClosureObserver {
 Samples sample_closure(const Problem& problem, Method method, double tolerance_or_step, double interval, int count) {
   Config config = problem.config;
   config.integrator.method = method;
-  (takes_fixed_steps(method) ? config.integrator.time_step.emplace() : config.integrator.tolerance) = tolerance_or_step;
+  if (takes_fixed_steps(method))
+    config.integrator.time_step = tolerance_or_step;
+  else
+    config.integrator.tolerance = config.integrator.rest_length_tolerance = tolerance_or_step;
   config.output.interval = interval;
   config.run.end_time = interval * count;
   config.run.closed_area = 0.0;  // all the way

@@ -87,6 +87,7 @@ def main(source, folder):
     events = rows_of(measurements, "events")
     if events:
         write_csv(events, folder / "events.csv")
+    if any(row["name"].startswith("node") and "euler_over_this" in row for row in events):
         plot_events(events, folder / "events.png")
 
 

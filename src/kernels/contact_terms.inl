@@ -130,7 +130,7 @@ SUTURE_INLINE void append_window(const Shell& s, double reach2, int window, cons
     if (has(found.point[k])) put(k, px - x[k], py - y[k], has(found.added[k]) ? 0.0 : -0.0);
     if (k == segments || !has(found.segment[k])) continue;
     const double ex = x[k + 1] - x[k], ey = y[k + 1] - y[k], rx = px - x[k], ry = py - y[k];
-    const double t = (rx * ex + ry * ey) / (ex * ex + ey * ey);
+    const double t = std::max(0.0, (rx * ex + ry * ey) / (ex * ex + ey * ey));  // bits say that it is positive; rounded otherwise here
     put(k, rx - t * ex, ry - t * ey, t);
   }
 }
