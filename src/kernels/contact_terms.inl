@@ -99,7 +99,7 @@ SUTURE_INLINE OtherTerms find_terms(const GroupPlaces& places, LiveTerms& terms)
     found.segment[k] = start[k] & ~found.added[k + 1];
   }
   for (int k = 0; k < points; ++k) found.point[k] = start[k] ^ found.added[k];
-  // The nearest point of the middle segment is its first end, even if the window does not have that segment; is its second end.
+  // Where the nearest point of the middle segment is its first end (even if the window does not have that segment), and its second.
   const std::uint64_t first = found.added[middle] & ~places[GroupPlaces::after_start + middle];
   const std::uint64_t second = found.added[middle + 1] & found.point[middle + 1];
   terms.middle_live = (found.segment[middle] | first | second) & places[GroupPlaces::near_middle];
