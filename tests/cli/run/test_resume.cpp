@@ -112,11 +112,13 @@ TEST_CASE("a damaged checkpoint gives way to the previous one, and without any, 
   const std::vector<std::string> keys{"--set", "checkpoint.interval=1", "--set", "run.end_time=5"};
   REQUIRE(run_suture(SUTURE_PROGRAM, quick("whole", keys), directory.path()).exit_code == 0);
   RunningProgram program(SUTURE_PROGRAM, quick("out", keys), directory.path());
-  std::error_code ignored;
-  for (int i = 0; i < 60000 && !std::filesystem::exists(directory.path() / "out/checkpoint.previous"); ++i)
+  const auto exists = [&](const char* name) { return std::filesystem::exists(directory.path() / "out" / name); };
+  // Both: the previous one is there a moment before the present one takes its place.
+  for (int i = 0; i < 60000 && !(exists("checkpoint.previous") && exists("checkpoint")); ++i)
     std::this_thread::sleep_for(std::chrono::microseconds(100));
   program.send(SIGKILL);
   if (program.wait() != -SIGKILL) return;  // it was faster
+  REQUIRE(exists("checkpoint"));
   std::string bytes = read_bytes(directory.path() / "out/checkpoint");
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 4);
   write_bytes(directory.path() / "out/checkpoint", bytes);
