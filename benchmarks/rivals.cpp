@@ -99,7 +99,7 @@ void compare_with(const Problem& problem, const SampledReference& reference, con
     m.values = {{"tolerance_or_step", run.value}, {"error", run.error}, {"seconds", run.seconds}, {"accurate", run.accurate}};
     // Unless Euler failed; at least so much where its smallest step is not accurate.
     if (euler_seconds > 0.0 && run.accurate) m.values.emplace_back("euler_over_this", euler_seconds / run.seconds);
-    if (rkc2_seconds > 0.0 && run.accurate) m.values.emplace_back("this_over_rkc2", run.seconds / rkc2_seconds);     // not of Euler, which comes first
+    if (rkc2_seconds > 0.0 && run.accurate) m.values.emplace_back("this_over_rkc2", run.seconds / rkc2_seconds);  // not of Euler, which comes first
     append_counts(m, run.statistics);
     report.add(std::move(m));
   }
