@@ -24,6 +24,6 @@ void measure_rivals(const Settings& settings, Report& report);
 /// The same in closures with all events: nodes, embryos.
 void measure_rivals_with_events(const Settings& settings, Report& report);
 /// Actual over requested error on the grid of k_a and tau.
-void measure_tolerance_grid(const Settings& settings, Report& report, const Packed& wounded);
+void measure_tolerance_grid(const Settings& settings, Report& report);
 
 }  // namespace suture::benchmark

@@ -21,13 +21,13 @@ void measure(const Settings& settings, Report& report) {
   if (settings.wants("large")) measure_large_tissues(settings, report);
   if (settings.wants("rivals")) measure_rivals(settings, report);
   if (settings.wants("events")) measure_rivals_with_events(settings, report);
-  const bool smooth = settings.wants("ladders") || settings.wants("cases") || settings.wants("grid");
+  if (settings.wants("grid")) measure_tolerance_grid(settings, report);
+  const bool smooth = settings.wants("ladders") || settings.wants("cases");
   if (!smooth && !settings.wants("closures")) return;
   const Packed wounded = wounded_tissue(settings.smoke);
   if (settings.wants("closures")) measure_closures(settings, report, wounded);
   if (settings.wants("ladders")) measure_ladders(settings, report, wounded);
   if (settings.wants("cases")) measure_cases(settings, report, wounded);
-  if (settings.wants("grid")) measure_tolerance_grid(settings, report, wounded);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ IntegratorOptions integrator_options(const Config& config, double rest_length) {
   options.method = p.method;
   options.position_tolerance = p.tolerance * rest_length;
   options.rest_length_tolerance = p.rest_length_tolerance * rest_length;
+  options.local_error_fraction = p.local_error_fraction;
   options.time_step = p.time_step.value_or(0.01 * rest_length / std::sqrt(std::max(config.area.stiffness, 1e-3)));
   options.maximum_step = std::isfinite(p.maximum_step) ? p.maximum_step : 0.0;
   options.maximum_order = p.maximum_order;

@@ -78,6 +78,10 @@ std::vector<ConfigKey<Config>> program_keys() {
                                          "error tolerance on vertex positions"),
       key<&C::integrator, &I::rest_length_tolerance>("integrator", "rest_length_tolerance", in_rest_lengths,
                                                      above_zero_to(1), "error tolerance on rest lengths"),
+      key<&C::integrator, &I::local_error_fraction>(
+          "integrator", "local_error_fraction", pure_number, above_zero_to(1),
+          "methods cvode and auto: the estimated error of a step of cvode may be this part of the tolerances; its errors add up "
+          "more than those of rkc2, and with one half a tolerance means like errors of a run by both"),
       key<&C::integrator, &I::maximum_order>("integrator", "maximum_order", pure_number, between(1, 5),
                                              "highest order of the BDF and Adams formulas; forces have kinks, and orders above 3 cost more than they bring"),
       key<&C::integrator, &I::keep_history>("integrator", "keep_history", pure_number, anything,

@@ -36,6 +36,24 @@ TEST_CASE("the error of a smooth relaxation follows the tolerance", "[convergenc
     }
 }
 
+TEST_CASE("half of a tolerance for the error of a step is the whole of half the tolerance", "[convergence]") {
+  const TissueState state = relaxing_cell();
+  TissueOde ode(state.tissue, 0, ode_options(contact_law(0.05, 0.1, false)), {});
+  const auto with = [&](Method method, double tolerance, double fraction) {
+    IntegratorOptions options = with_tolerance(method, tolerance);
+    options.local_error_fraction = fraction;
+    options.switch_stages = 1.0;  // auto: CVODE as soon as it may
+    Statistics statistics;
+    const auto y = integrate(ode, options, 0.0, state.values, 4.0, &statistics);
+    return std::pair(y, statistics.rate_evaluations);
+  };
+  CHECK(IntegratorOptions{}.local_error_fraction == Config{}.integrator.local_error_fraction);
+  CHECK(with(Method::cvode, 0x1p-14, 0.5) == with(Method::cvode, 0x1p-15, 1.0));
+  CHECK(with(Method::cvode, 0x1p-14, 0.5) != with(Method::cvode, 0x1p-14, 1.0));
+  CHECK(with(Method::automatic, 0x1p-14, 0.5) != with(Method::automatic, 0x1p-14, 1.0));
+  CHECK(with(Method::rkc2, 0x1p-14, 0.5) == with(Method::rkc2, 0x1p-14, 1.0));
+}
+
 TEST_CASE("a step never passes its limit and can end on it exactly", "[convergence]") {
   const TissueState state = relaxing_cell();
   for (const Method method : every_method) {

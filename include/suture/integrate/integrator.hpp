@@ -32,6 +32,7 @@ struct IntegratorOptions {
   Method method = Method::cvode;
   double position_tolerance = 0.0;     ///< absolute, model units of length
   double rest_length_tolerance = 0.0;  ///< absolute, model units of length
+  double local_error_fraction = 0.5;   ///< CVODE's BDF: estimated error of a step at most this part of the tolerances
   double time_step = 0.0;              ///< fixed-step methods
   double initial_step = 0.0;           ///< 0: chosen
   double maximum_step = 0.0;           ///< 0: none

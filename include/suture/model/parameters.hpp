@@ -207,6 +207,7 @@ struct IntegratorParameters {
   Method method = Method::cvode;
   double tolerance = 1e-3;           ///< on positions, in units of l0(0)
   double rest_length_tolerance = 1e-3; ///< on rest lengths, in units of l0(0)
+  double local_error_fraction = 0.5; ///< CVODE's BDF: estimated error of a step at most this part of the tolerances
   int maximum_order = 3;             ///< forces have kinks: higher orders amplify what the solver leaves
   LinearSolver linear_solver = LinearSolver::structured;
   bool keep_history = true;          ///< carry the multistep history over events
