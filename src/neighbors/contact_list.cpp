@@ -32,6 +32,7 @@ void ContactList::build(const kernels::Shell& shell, const kernels::Table& kerne
     lists_[k].groups.assign(lists_[k].windows);
     age(k, 0.0);
   });
+  note_completions();
 }
 
 void ContactList::find_boxes(const kernels::Shell& shell, const kernels::Table& kernel, WorkerPool& workers) {
@@ -116,6 +117,16 @@ void ContactList::note_blocks(int cell, const std::vector<Neighbor>& neighbors) 
   };
   for (const Neighbor& neighbor : neighbors)
     for (const int c : {cell, neighbor.cell}) note(lists_[neighbor.list].blocks, schedule_.block_of(c));
+}
+
+void ContactList::note_completions() {
+  last_list_.assign(schedule_.blocks(), 0);
+  schedule_.for_each_list(WorkerPool::alone(), [this](int k) {
+    lists_[k].completes.clear();
+    if (k < schedule_.blocks()) last_list_[k] = k;
+    for (const int block : lists_[k].blocks) last_list_[block] = k;
+  });
+  for (int block = 0; block < schedule_.blocks(); ++block) lists_[last_list_[block]].completes.push_back(block);
 }
 
 /// Scratch has room for what is found.

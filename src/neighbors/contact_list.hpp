@@ -29,6 +29,7 @@ class ContactList {
     WindowGroups groups;                   ///< the same
     std::vector<kernels::SelfPair> self_pairs;
     std::vector<int> blocks;               ///< all whose vertices or segments are listed, and perhaps some near them
+    std::vector<int> completes;            ///< blocks that no list behind this one is about
     int active_bands = bands;
   };
 
@@ -77,6 +78,7 @@ class ContactList {
   void find_neighbors(int cell, std::vector<Neighbor>& neighbors) const;
   /// Their lists are about this cell and them.
   void note_blocks(int cell, const std::vector<Neighbor>& neighbors);
+  void note_completions();
   kernels::NearQuery query_around(int cell, const kernels::Shell& shell, const kernels::Table& kernel, Scratch& scratch) const;
   void add_windows(Scratch& scratch, const kernels::Shell& shell, const kernels::Table& kernel, int cell);
   void add_self_pairs(Scratch& scratch, Entries& entries, const kernels::Shell& shell, const kernels::Table& kernel, int cell) const;
@@ -86,6 +88,7 @@ class ContactList {
   ContactSchedule schedule_;
   std::vector<Entries> lists_;
   std::vector<Scratch> scratch_;  // per part
+  std::vector<int> last_list_;    // about a block
   std::vector<Box> boxes_;
   std::vector<int> first_segment_box_;
   std::vector<double> segment_box_room_;

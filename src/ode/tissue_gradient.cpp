@@ -73,12 +73,12 @@ Range TissueGradient::points_of(int block) const {
   return {vertices.begin, block + 1 < padded.blocks() ? vertices.end : static_cast<std::size_t>(layout.points())};
 }
 
-bool TissueGradient::add_shell(const StateView& state, int block, bool keep) {
+void TissueGradient::add_shell(const StateView& state, int block, bool keep) {
   const std::size_t first = padded.vertices_of(block).begin, cell = padded.cells_of(block).begin;
   kernels::ShellInput in{state.x.data() + first, state.y.data() + first, held_ != nullptr ? held_ + first : nullptr};
   if (flow_.rate != nullptr) in.flow = {flow_.inverse_tau + cell, flow_.memory + cell, flow_.reference + first, flow_.rate + first};
   if (!keep) in.room = {room_of_thread(kernels::SegmentRoom::arrays * room_stride_), room_stride_};
-  return kernel.shell_gradient(padded.shell_of(block), in);
+  if (!kernel.shell_gradient(padded.shell_of(block), in)) unhealthy_ = true;
 }
 
 /// How far somebody of a block is from where the list was built, squared.
@@ -93,48 +93,17 @@ void TissueGradient::add_contacts(int k) {
 }
 
 /// A block is looked at just before its contacts, while it is in the cache.
-bool TissueGradient::add_by_old_list(const StateView& state, std::atomic<bool>& unhealthy) {
-  if (rebuilds == 0) return false;
-  // The linearisation of an implicit step reads segments; those of a large tissue it makes anew.
-  const bool keep = held_ == nullptr && padded.blocks() == 1;
-  std::atomic<bool> worn = false;
-  list.schedule().for_each_list(workers, [&](int k) {
-    if (worn) return;
-    if (k < padded.blocks()) {
-      moved2_[k] = largest_move2(state, k);
-      if (!(2.0 * std::sqrt(moved2_[k]) <= options.skin)) {
-        worn = true;
-        return;
-      }
-      if (!add_shell(state, k, keep)) unhealthy = true;
-    }
-    double moved2 = 0.0;
-    for (const int block : list.entries(k).blocks) moved2 = std::max(moved2, moved2_[block]);
-    list.age(k, std::sqrt(moved2));
-    add_contacts(k);
-  });
-  return !worn;
-}
-
-/// A new list needs all segments first.
-void TissueGradient::add_by_new_list(const StateView& state, std::atomic<bool>& unhealthy) {
-  workers.for_each(padded.blocks(), [&](int block) {
-    if (!add_shell(state, block, true)) unhealthy = true;
-  });
-  if (unhealthy) return;
-  rebuild(state);
-  list.schedule().for_each_list(workers, [&](int k) { add_contacts(k); });
-}
-
-/// Shells and contacts.
-bool TissueGradient::add_cells(const StateView& state) {
-  std::atomic<bool> unhealthy = false;
-  if (!add_by_old_list(state, unhealthy)) {
-    unhealthy = false;
-    add_by_new_list(state, unhealthy);
+bool TissueGradient::add_list(const StateView& state, int k, bool keep) {
+  if (k < padded.blocks()) {
+    moved2_[k] = largest_move2(state, k);
+    if (!(2.0 * std::sqrt(moved2_[k]) <= options.skin)) return false;
+    add_shell(state, k, keep);
   }
-  if (unhealthy) explain_unhealthy(state);
-  return !unhealthy;
+  double moved2 = 0.0;
+  for (const int block : list.entries(k).blocks) moved2 = std::max(moved2, moved2_[block]);
+  list.age(k, std::sqrt(moved2));
+  add_contacts(k);
+  return true;
 }
 
 void TissueGradient::add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy) {

@@ -30,19 +30,28 @@ class TissueGradient {
   /// blocks at once, as soon as the entries of points_of(block) are final; it returns whether they are finite.
   template <class Finish>
   Evaluation evaluate(double t, const StateView& state, std::span<double> gx, std::span<double> gy, const Finish& finish) {
-    if (!add_cells(state)) return Evaluation::refused;
     std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
     std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
-    const bool at_once = extra.empty();  // a block is finished while it is in the cache
-    if (!at_once) {
-      workers.for_each(padded.blocks(), [&](int block) { padded.pack_gradient(gx, gy, block); });
-      add_terms(t, state, gx, gy);
-    }
     std::atomic<bool> bad = false;
-    workers.for_each(padded.blocks(), [&](int block) {
-      if (at_once) padded.pack_gradient(gx, gy, block);
+    const auto finish_block = [&](int block) {
       if (!finish(block)) bad = true;
-    });
+    };
+    const auto complete = [&](int block) {
+      padded.pack_gradient(gx, gy, block);
+      if (extra.empty()) finish_block(block);  // while it is in the cache
+    };
+    if (!add_by_old_list(state, complete)) {
+      bad = false;
+      add_by_new_list(state, complete);
+    }
+    if (unhealthy_) {
+      explain_unhealthy(state);
+      return Evaluation::refused;
+    }
+    if (!extra.empty()) {
+      add_terms(t, state, gx, gy);
+      workers.for_each(padded.blocks(), finish_block);
+    }
     if (!bad) return Evaluation::ok;
     explain_infinite(gx, gy);
     return Evaluation::refused;
@@ -66,14 +75,42 @@ class TissueGradient {
   std::string refusal;
 
  private:
-  bool add_cells(const StateView& state);
   /// keep: segments and angles stay in the padded arrays.
-  bool add_shell(const StateView& state, int block, bool keep);
+  void add_shell(const StateView& state, int block, bool keep);
   double largest_move2(const StateView& state, int block) const;
   void add_contacts(int list);
-  /// False if somebody has moved too far for the list; what has been added is void then.
-  bool add_by_old_list(const StateView& state, std::atomic<bool>& unhealthy);
-  void add_by_new_list(const StateView& state, std::atomic<bool>& unhealthy);
+  /// Shell, if it is the list of a block, and contacts; false if somebody has moved too far for the list.
+  bool add_list(const StateView& state, int list, bool keep);
+  /// Shells and contacts of all cells; complete(block) is called when a block has everything. False if somebody has moved too
+  /// far for the list: all is void then.
+  template <class Complete>
+  bool add_by_old_list(const StateView& state, const Complete& complete) {
+    unhealthy_ = false;
+    if (rebuilds == 0) return false;
+    // The linearisation of an implicit step reads segments; those of a large tissue it makes anew.
+    const bool keep = held_ == nullptr && padded.blocks() == 1;
+    std::atomic<bool> worn = false;
+    list.schedule().for_each_list(workers, [&](int k) {
+      if (worn) return;
+      if (add_list(state, k, keep))
+        for (const int block : list.entries(k).completes) complete(block);
+      else
+        worn = true;
+    });
+    return !worn;
+  }
+  /// A new list needs all segments first.
+  template <class Complete>
+  void add_by_new_list(const StateView& state, const Complete& complete) {
+    unhealthy_ = false;
+    workers.for_each(padded.blocks(), [&](int block) { add_shell(state, block, true); });
+    if (unhealthy_) return;
+    rebuild(state);
+    list.schedule().for_each_list(workers, [&](int k) {
+      add_contacts(k);
+      for (const int block : list.entries(k).completes) complete(block);
+    });
+  }
   void add_terms(double t, const StateView& state, std::span<double> gx, std::span<double> gy);
   void explain_unhealthy(const StateView& state);
   void explain_infinite(std::span<const double> gx, std::span<const double> gy);
@@ -83,6 +120,7 @@ class TissueGradient {
   std::vector<double> moved2_;             // per block: how far somebody is from there, squared
   const double* held_ = nullptr;           // rest lengths of a plain evaluation
   kernels::RestLengthFlow flow_;           // of a plain evaluation
+  std::atomic<bool> unhealthy_ = false;    // some cell has no forces
   std::size_t room_stride_ = 0;            // of kernels::SegmentRoom
 };
 
