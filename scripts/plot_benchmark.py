@@ -25,27 +25,30 @@ def write_csv(rows, path):
     with open(path, "w", newline="") as stream:
         writer = csv.DictWriter(stream, columns, lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        for row in rows:
+            writer.writerow({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()})
 
 
 def plot_grid(rows, path):
+    """Every run a dot; within one tau the area stiffness rises from left to right."""
     methods = list(dict.fromkeys(row["name"] for row in rows))
     area_stiffnesses = sorted({row["k_a"] for row in rows})
-    figure, panels = plt.subplots(1, len(methods), figsize=(9, 4), sharey=True, squeeze=False)
+    tolerances = sorted({row["tolerance"] for row in rows}, reverse=True)
+    figure, panels = plt.subplots(1, len(methods), figsize=(11, 4.5), sharey=True, squeeze=False)
     for panel, method in zip(panels[0], methods):
         panel.axhspan(0.01, 10, color="0.93", label="asked: 0.01 to 10")
-        for row in rows:
-            if row["name"] != method:
-                continue
-            shade = plt.cm.viridis(area_stiffnesses.index(row["k_a"]) / (len(area_stiffnesses) - 0.5))
-            size = {1e-2: 60, 1e-3: 30, 1e-4: 10}.get(row["tolerance"], 20)
-            panel.scatter(row["tau"], row["ratio"], s=size, color=shade, alpha=0.8, linewidths=0)
-        for area_stiffness in area_stiffnesses:
-            shade = plt.cm.viridis(area_stiffnesses.index(area_stiffness) / (len(area_stiffnesses) - 0.5))
-            panel.scatter([], [], color=shade, label=f"$k_a$ = {area_stiffness:g}")
-        for tolerance, size in ((1e-2, 60), (1e-3, 30), (1e-4, 10)):
-            panel.scatter([], [], s=size, color="0.5", label=f"tolerance {tolerance:g}")
+        for k, tolerance in enumerate(tolerances):
+            shade = plt.cm.viridis(k / (len(tolerances) - 0.5))
+            runs = [row for row in rows if row["name"] == method and row["tolerance"] == tolerance]
+            place = [area_stiffnesses.index(row["k_a"]) - (len(area_stiffnesses) - 1) / 2 + 0.25 * (k - 1) for row in runs]
+            tau = [row["tau"] * 10 ** (0.1 * at) for row, at in zip(runs, place)]
+            panel.scatter(tau, [row["ratio"] for row in runs], s=7, color=shade, alpha=0.7, linewidths=0)
+            panel.scatter([], [], color=shade, label=f"tolerance {tolerance:g}")
         panel.set(xscale="log", yscale="log", xlabel=r"$\tau$", title=method)
+        panel.set_xticks(sorted({row["tau"] for row in rows}), [f"{tau:g}" for tau in sorted({row["tau"] for row in rows})])
+        panel.minorticks_off()
+    shown = ", ".join(f"{a:g}" for a in area_stiffnesses)
+    figure.text(0.5, -0.03, f"at each $\\tau$, from left to right: $k_a$ = {shown}", ha="center")
     panels[0][0].set_ylabel("error / tolerance")
     panels[0][-1].legend(loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
     figure.savefig(path, dpi=150, bbox_inches="tight")

@@ -75,11 +75,18 @@ class CvodeIntegrator final : public Integrator {
   std::exception_ptr exception_;  // thrown inside a callback; exceptions must not cross C frames
 };
 
+/// Tolerances become those of a step.
+IntegratorOptions for_steps(IntegratorOptions options) {
+  options.position_tolerance *= options.local_error_fraction;
+  options.rest_length_tolerance *= options.local_error_fraction;
+  return options;
+}
+
 CvodeIntegrator::CvodeIntegrator(GradientFlowSystem& system, const IntegratorOptions& options, double t,
                                  std::span<const double> y)
     : system_(&system),
-      options_(options),
-      newton_(system, {.weight = 1.0 / (options.local_error_fraction * options.position_tolerance),
+      options_(for_steps(options)),
+      newton_(system, {.weight = 1.0 / options_.position_tolerance,
                        .largest_move = options.largest_move,
                        .always_set_up = options.linear_solver == LinearSolver::sparse_direct}),
       family_(std::make_shared<VectorFamily>(system.workers())),
@@ -197,9 +204,7 @@ int CvodeIntegrator::weights(N_Vector, N_Vector w, void* user) {
   // Constant weights: positions have no natural origin (translation invariance), rest lengths share their scale.
   const auto* self = static_cast<CvodeIntegrator*>(user);
   const std::span<double> out = values(w);
-  const IntegratorOptions& o = self->options_;
-  const double position = 1.0 / (o.local_error_fraction * o.position_tolerance);
-  const double rest = 1.0 / (o.local_error_fraction * o.rest_length_tolerance);
+  const double position = 1.0 / self->options_.position_tolerance, rest = 1.0 / self->options_.rest_length_tolerance;
   const std::size_t n = self->system_->position_count();
   if (out[0] == position && out[out.size() - 1] == rest) return 0;
   std::fill_n(out.begin(), n, position);

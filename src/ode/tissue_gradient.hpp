@@ -27,12 +27,16 @@ class TissueGradient {
   void let_rest_lengths_follow();
 
   /// dU/dr at (x, y) with the rest lengths set before; gx, gy have one entry per point. finish(block) is called, for several
-  /// blocks at once, as soon as the entries of points_of(block) are final; it returns whether they are finite.
+  /// blocks at once, as soon as the entries of points_of(block) have all they get; it returns whether they are finite. With a list
+  /// that turns out to be worn all begins anew: state must not lie in gx, gy.
   template <class Finish>
   Evaluation evaluate(double t, const StateView& state, std::span<double> gx, std::span<double> gy, const Finish& finish) {
-    std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
-    std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
     std::atomic<bool> bad = false;
+    const auto begin = [&] {
+      bad = false;
+      std::fill(gx.begin() + layout.vertices, gx.end(), 0.0);
+      std::fill(gy.begin() + layout.vertices, gy.end(), 0.0);
+    };
     const auto finish_block = [&](int block) {
       if (!finish(block)) bad = true;
     };
@@ -40,8 +44,9 @@ class TissueGradient {
       padded.pack_gradient(gx, gy, block);
       if (extra.empty()) finish_block(block);  // while it is in the cache
     };
+    begin();
     if (!add_by_old_list(state, complete)) {
-      bad = false;
+      begin();
       add_by_new_list(state, complete);
     }
     if (unhealthy_) {

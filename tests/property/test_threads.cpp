@@ -21,10 +21,14 @@ namespace {
 
 constexpr double contact_distance = 0.12, skin = 0.05;
 
+/// Numbered row by row: most blocks touch the next ones only.
+TissueState tissue_of_rows() {
+  return random_tissue(5, {.rows = 38, .columns = 38, .minimum_vertices = 20, .maximum_vertices = 28, .spacing = 1.0, .roughness = 0.03});
+}
+
 /// Numbered at random: any two parts touch, and in cells that touch a third one.
 TissueState large_tissue() {
-  const TissueState rows =
-      random_tissue(5, {.rows = 38, .columns = 38, .minimum_vertices = 20, .maximum_vertices = 28, .spacing = 1.0, .roughness = 0.03});
+  const TissueState rows = tissue_of_rows();
   std::vector<int> cells(rows.tissue.cell_count());
   std::iota(cells.begin(), cells.end(), 0);
   std::shuffle(cells.begin(), cells.end(), std::mt19937(1));
@@ -143,6 +147,53 @@ TEST_CASE("lists are as old as the cells they are about", "[property][threads]")
   REQUIRE(fresh.rate(0.0, moved, by_new_list) == Evaluation::ok);
   CHECK(largest_difference(by_old_list, by_new_list) < 1e-11 * largest(by_new_list));
   CHECK(largest_difference(by_old_list, before) > 1e-3 * largest(by_new_list));
+}
+
+TEST_CASE("a list that turns out to be worn when most blocks are finished leaves no trace", "[property][threads]") {
+  const TissueState state = tissue_of_rows();
+  const StateLayout layout = state.layout();
+  std::vector<double> moved(state.values);
+  for (int v = state.tissue.first_vertex(1400); v < state.tissue.end_vertex(1400); ++v) moved[layout.x(v)] += 0.55 * skin;
+  const std::span<const double> before = state.values, after = moved;
+  const auto positions = static_cast<std::size_t>(layout.positions());
+  std::vector<double> expected(moved.size()), found(moved.size()), expected_residual(positions), residual(positions);
+  TissueOde fresh(state.tissue, 0, options(1), {});
+  REQUIRE(fresh.rate(0.0, after, expected) == Evaluation::ok);
+  fresh.begin_implicit_step(0.0, 0.05, before);
+  REQUIRE(fresh.residual(after.first(positions), expected_residual) == Evaluation::ok);
+  for (const int threads : {1, 2, 5}) {
+    CAPTURE(threads);
+    TissueOde ode(state.tissue, 0, options(threads), {});
+    REQUIRE(ode.rate(0.0, before, found) == Evaluation::ok);
+    REQUIRE(ode.rate(0.0, after, found) == Evaluation::ok);
+    CHECK(ode.list_rebuilds() == 2);
+    CHECK(same_bits(found, expected));
+    REQUIRE(ode.rate(0.0, before, found) == Evaluation::ok);
+    ode.begin_implicit_step(0.0, 0.05, before);
+    REQUIRE(ode.residual(after.first(positions), residual) == Evaluation::ok);
+    CHECK(ode.list_rebuilds() == 4);
+    CHECK(same_bits(residual, expected_residual));
+  }
+}
+
+TEST_CASE("every block is completed once, by the last list that is about it", "[property][threads]") {
+  for (const bool shuffled : {false, true}) {
+    const TissueState state = shuffled ? large_tissue() : tissue_of_rows();
+    PaddedTissue padded(state.tissue, SpringLaw::quadratic);
+    load(padded, state);
+    ContactList list(1.3 * contact_distance, contact_distance, skin, 20);
+    for (int build = 0; build < 2; ++build) list.build(padded.shell, kernels::best());
+    const int blocks = list.schedule().blocks();
+    std::vector<int> completed(blocks), late(blocks);
+    int early = 0;  // before anything is done between parts
+    list.schedule().for_each_list(WorkerPool::alone(), [&](int k) {
+      for (const int block : list.entries(k).blocks) late[block] += completed[block];
+      for (const int block : list.entries(k).completes) ++completed[block], early += k < blocks;
+    });
+    CHECK(std::all_of(completed.begin(), completed.end(), [](int times) { return times == 1; }));
+    CHECK(std::all_of(late.begin(), late.end(), [](int times) { return times == 0; }));
+    if (!shuffled) CHECK(early > blocks / 4);
+  }
 }
 
 TEST_CASE("divided lists hold the whole contact list, each what it may touch", "[property][threads]") {
