@@ -91,7 +91,7 @@ GridProblem grid_problem(Packed material, double area_stiffness, double tau, dou
 void measure_material(Report& report, const GridProblem& studied, double horizon, double area_stiffness, double tau, std::span<const double> tolerances) {
   const auto& [problem, reference] = studied;
   const auto seed = static_cast<double>(problem.config.tissue.seed);
-  for (const Method method : {Method::cvode, Method::rkc2})
+  for (const Method method : {Method::cvode, Method::rkc2, Method::automatic})
     for (const double tolerance : tolerances) {
       const Samples run = sample(problem, method, tolerance, reference.interval, reference.count());
       const double error = sampled_error(problem, run, reference);
