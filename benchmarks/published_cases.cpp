@@ -2,12 +2,12 @@
 // law, no events), and the grid on which the error must follow the tolerance.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <cstdint>
+#include <span>
 
 #include "groups.hpp"
 #include "sampled.hpp"
 #include "suture/converge/study.hpp"
-#include "suture/errors.hpp"
 
 namespace suture::benchmark {
 
@@ -88,14 +88,14 @@ GridProblem grid_problem(Packed material, double area_stiffness, double tau, dou
   return problem;
 }
 
-void measure_material(Report& report, const GridProblem& studied, double horizon, double area_stiffness, double tau, std::span<const double> tolerances) {
+void measure_grid_problem(Report& report, const GridProblem& studied, double horizon, std::span<const double> tolerances) {
   const auto& [problem, reference] = studied;
-  const auto seed = static_cast<double>(problem.config.tissue.seed);
+  const Config& config = problem.config;
   for (const Method method : {Method::cvode, Method::rkc2, Method::automatic})
     for (const double tolerance : tolerances) {
       const Samples run = sample(problem, method, tolerance, reference.interval, reference.count());
       const double error = sampled_error(problem, run, reference);
-      Measurement m{"grid", method_name(method), {{"k_a", area_stiffness}, {"tau", tau}, {"tolerance", tolerance}, {"horizon", horizon}, {"seed", seed}}, {}};
+      Measurement m{"grid", method_name(method), {{"k_a", config.area.stiffness}, {"tau", config.plasticity.tau}, {"tolerance", tolerance}, {"horizon", horizon}, {"seed", static_cast<double>(config.tissue.seed)}}, {}};
       m.values = {{"error", error}, {"ratio", error / tolerance}, {"within", error >= 0.01 * tolerance && error <= 10.0 * tolerance},
                   {"agreed_until", reference.agreed_until()}, {"uncertainty", reference.uncertainty}};
       append_counts(m, run.statistics);
@@ -119,7 +119,7 @@ void measure_tolerance_grid(const Settings& settings, Report& report) {
         if (problem.reference.count() == 0)
           fmt::print(stderr, "grid: seed {}, k_a {}, tau {} is left out, the references agree nowhere\n", seed, area_stiffness, tau);
         else
-          measure_material(report, problem, horizon, area_stiffness, tau, tolerances);
+          measure_grid_problem(report, problem, horizon, tolerances);
       }
   }
 }

@@ -34,6 +34,7 @@ def plot_grid(rows, path):
     methods = list(dict.fromkeys(row["name"] for row in rows))
     area_stiffnesses = sorted({row["k_a"] for row in rows})
     tolerances = sorted({row["tolerance"] for row in rows}, reverse=True)
+    taus = sorted({row["tau"] for row in rows})
     figure, panels = plt.subplots(1, len(methods), figsize=(11, 4.5), sharey=True, squeeze=False)
     for panel, method in zip(panels[0], methods):
         panel.axhspan(0.01, 10, color="0.93", label="asked: 0.01 to 10")
@@ -41,11 +42,10 @@ def plot_grid(rows, path):
             shade = plt.cm.viridis(k / (len(tolerances) - 0.5))
             runs = [row for row in rows if row["name"] == method and row["tolerance"] == tolerance]
             place = [area_stiffnesses.index(row["k_a"]) - (len(area_stiffnesses) - 1) / 2 + 0.25 * (k - 1) for row in runs]
-            tau = [row["tau"] * 10 ** (0.1 * at) for row, at in zip(runs, place)]
-            panel.scatter(tau, [row["ratio"] for row in runs], s=7, color=shade, alpha=0.7, linewidths=0)
+            panel.scatter([row["tau"] * 10 ** (0.1 * at) for row, at in zip(runs, place)], [row["ratio"] for row in runs], s=7, color=shade, alpha=0.7, linewidths=0)
             panel.scatter([], [], color=shade, label=f"tolerance {tolerance:g}")
         panel.set(xscale="log", yscale="log", xlabel=r"$\tau$", title=method)
-        panel.set_xticks(sorted({row["tau"] for row in rows}), [f"{tau:g}" for tau in sorted({row["tau"] for row in rows})])
+        panel.set_xticks(taus, [f"{tau:g}" for tau in taus])
         panel.minorticks_off()
     shown = ", ".join(f"{a:g}" for a in area_stiffnesses)
     figure.text(0.5, -0.03, f"at each $\\tau$, from left to right: $k_a$ = {shown}", ha="center")

@@ -19,7 +19,7 @@ class OdeSystem {
  public:
   virtual ~OdeSystem() = default;
   virtual int size() const = 0;
-  /// dy/dt, a pure function of (t, y).
+  /// dy/dt, a pure function of (t, y). y and out do not overlap; of a refused evaluation out may hold parts.
   virtual Evaluation rate(double t, std::span<const double> y, std::span<double> out) = 0;
   /// Whether a step from `before` to `after`, where the last evaluation was or nearly was, has jumped over something that a shorter
   /// one would meet: then cvode and rkc2 repeat it with a shorter one. A small step never does.
